@@ -1,0 +1,1 @@
+"""Layouts, circuits, stitch plans and outlines of SESAMEs: geometry in millimetres."""

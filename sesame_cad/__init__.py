@@ -1,0 +1,1 @@
+"""Fabrication CAD for strained elastic surfaces with adjustable-modulus edges."""

@@ -1,0 +1,1 @@
+"""Mechanics of strained elastic surfaces with adjustable-modulus edges."""
