@@ -1,0 +1,110 @@
+"""Looking back at a solved loop: whether it has left the ground on which it was modelled."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.disc_basis import disc_basis
+from solver.loop_energy import loop_energy
+from solver.omitted import OmittedTerm
+from solver.scene import LoopScene
+from solver.shape import LoopShape, from_expansion
+
+Vectors = NDArray[np.float64]
+
+EDGE_POINTS = 256
+WRITHE_POINTS = 48
+LARGEST_WIRE_STRAIN = 0.01
+"""Beyond it the wire is no longer stiff against stretch, as the model takes it to be."""
+
+
+def smallest_stress(scene: LoopScene, shape: LoopShape, degree: int) -> float:
+    """Smallest principal stress of the fabric, units of E_f; negative where it would wrinkle."""
+    basis = disc_basis(degree, (0, 0))
+    q = from_expansion(basis.unknowns, shape.expansion)
+    membrane = loop_energy(scene, basis).membrane
+    stress = membrane.stress(membrane.green_lagrange(basis.gradient @ q))
+    return float(np.linalg.eigvalsh(stress).min())
+
+
+def largest_wire_strain(shape: LoopShape, degree: int) -> float:
+    """Largest stretch or shortening of the wire, as a fraction of its length."""
+    basis = disc_basis(degree, (0, 0))
+    tangent = basis.tangent @ from_expansion(basis.unknowns, shape.expansion)
+    return float(np.abs(np.linalg.norm(tangent, axis=1) - 1).max())
+
+
+def smallest_bend_radius(shape: LoopShape, degree: int) -> float:
+    """Smallest radius of curvature of the wire, in units of R."""
+    basis = disc_basis(degree, (0, 0))
+    q = from_expansion(basis.unknowns, shape.expansion)
+    tangent, second = basis.tangent @ q, basis.second @ q
+    turn = np.linalg.norm(np.cross(tangent, second), axis=1)
+    return float((np.linalg.norm(tangent, axis=1) ** 3 / turn).min())
+
+
+def smallest_wire_gap(shape: LoopShape) -> float:
+    """Smallest distance of wire centrelines across the loop, in units of R; negative when crossed.
+
+    Opposite crests come together first. They count as crossed when each lies on the other's side.
+    """
+    if shape.width <= 0:
+        return shape.width
+    edge = shape.edge(EDGE_POINTS)
+    apart = np.arange(EDGE_POINTS // 4, EDGE_POINTS // 2 + 1)
+    return float(
+        min(np.linalg.norm(edge - np.roll(edge, -int(k), axis=0), axis=1).min() for k in apart)
+    )
+
+
+def writhe(points: Vectors) -> float:
+    """Writhe of a closed polygon (n, 3): the double sum of solid angles over its edges.
+
+    Klenin and Langowski, Biopolymers 54 (2000) 307, method 1a. A saddle has mirror planes, so 0.
+    """
+    following = np.roll(points, -1, axis=0)
+    n = len(points)
+    i, j = np.triu_indices(n, 2)
+    apart = (j + 1) % n != i
+    i, j = i[apart], j[apart]
+    r12, r34 = following[i] - points[i], following[j] - points[j]
+    r13, r14 = points[j] - points[i], following[j] - points[i]
+    r23, r24 = points[j] - following[i], following[j] - following[i]
+    normals = [np.cross(r13, r14), np.cross(r14, r24), np.cross(r24, r23), np.cross(r23, r13)]
+    unit = [v / np.maximum(np.linalg.norm(v, axis=1), 1e-300)[:, None] for v in normals]
+    angle = sum(
+        np.arcsin(np.clip(np.sum(unit[k] * unit[(k + 1) % 4], axis=1), -1, 1)) for k in range(4)
+    )
+    sign = np.sign(np.sum(np.cross(r34, r12) * r13, axis=1))
+    return float(np.sum(angle * sign) / (2 * np.pi))
+
+
+def looked_back(scene: LoopScene, shape: LoopShape, degree: int) -> tuple[OmittedTerm, ...]:
+    """Measure what the model of one loop leaves out and the shape alone can tell."""
+    stress = smallest_stress(scene, shape, degree)
+    gap = smallest_wire_gap(shape)
+    strain = largest_wire_strain(shape, degree)
+    turns = abs(writhe(shape.edge(WRITHE_POINTS)))
+    return (
+        OmittedTerm(
+            "slack fabric (tension field)",
+            "largest compressive stress / E_f",
+            max(0.0, -stress),
+            matters=stress < 0 < scene.strain,
+        ),
+        OmittedTerm(
+            "contact across the loop",
+            "overlap of the crests / R",
+            max(0.0, -gap),
+            matters=gap <= 0,
+            fatal=gap <= 0,
+        ),
+        OmittedTerm("twist of the wire", "writhe of the loop", turns, matters=turns > 1e-6),
+        OmittedTerm(
+            "wire's softness beyond small stretch",
+            "largest wire strain",
+            strain,
+            matters=strain > LARGEST_WIRE_STRAIN,
+        ),
+    )

@@ -1,0 +1,55 @@
+"""What a solve returns: the shape, and the account of how it was found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from solver.omitted import OmittedTerm
+from solver.scene import LoopScene
+from solver.shape import LoopShape
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A minimum of a scene's energy; lengths in units of R, energies in units of E_f t R².
+
+    Attributes
+    ----------
+    scene : LoopScene
+    shape : LoopShape
+    buckled : bool
+        False when the flat loop is itself the minimum.
+    status : str
+        ``"converged"``, or why the shape must not be relied on.
+    energy_terms : dict
+        Energy by term.
+    gradient_norm : float
+        Of the energy by the unknowns.
+    lowest_eigenvalue : float
+        Of the second variation among all smooth shapes, free motions taken out.
+    steps, factorizations : int
+        Newton steps tried and Hessians factorised, on all bases together.
+    unknowns : int
+        Size of the last basis.
+    height_change : float
+        Relative change of the height from the basis before the last; 0 for a flat loop.
+    omitted : tuple of OmittedTerm
+    """
+
+    scene: LoopScene
+    shape: LoopShape
+    buckled: bool
+    status: str
+    energy_terms: dict[str, float]
+    gradient_norm: float
+    lowest_eigenvalue: float
+    steps: int
+    factorizations: int
+    unknowns: int
+    height_change: float
+    omitted: tuple[OmittedTerm, ...]
+
+    @property
+    def energy(self) -> float:
+        """Total energy."""
+        return sum(self.energy_terms.values())
