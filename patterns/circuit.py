@@ -5,8 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
 from patterns.layout import Layout
 from patterns.path import WirePath
+
+CLOSING_TOLERANCE_MM = 1e-6
 
 
 class CrossingKind(StrEnum):
@@ -63,3 +67,15 @@ class Circuit:
     def wire_length_mm(self) -> float:
         """Length of the wire with both tails."""
         return self.first_half.length_mm + self.second_half.length_mm
+
+    @property
+    def closed(self) -> bool:
+        """Whether the wire, its tails taken off, is one curve that ends where it starts."""
+        first, second = self.first_half, self.second_half
+        (turn,), (start,) = first.at(first.length_mm)[0], second.at(0.0)[0]
+        (leaves,), (returns,) = (
+            first.at(first.pieces[0].length_mm)[0],
+            second.at(second.length_mm - second.pieces[-1].length_mm)[0],
+        )
+        gap = max(np.hypot(*(turn - start)), np.hypot(*(leaves - returns)))
+        return bool(gap < CLOSING_TOLERANCE_MM)

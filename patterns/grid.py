@@ -8,7 +8,7 @@ from patterns.layout import Layout, Loop, tangent_layout
 def square_grid(rows: int, columns: int, loop_diameter_mm: float) -> Layout:
     """Lay rows × columns tangent loops, centred on the origin.
 
-    Loop ``row * columns + column`` has its row counted from the bottom and its column from the left.
+    Loop ``row * columns + column`` has its row counted from the bottom, its column from the left.
     """
     pitch = loop_diameter_mm
     return tangent_layout(

@@ -5,8 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
+from numpy.typing import NDArray
 
 from patterns.errors import PatternError
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 TANGENCY_TOLERANCE_MM = 1e-6
 """Two loops touch when the distance of their centres is the sum of their radii to within this."""
@@ -68,19 +73,34 @@ def tangent_layout(loops: tuple[Loop, ...]) -> Layout:
     PatternError
         When two loops overlap; the message names the pair and the distance of their centres.
     """
-    centre = np.array([(loop.x_mm, loop.y_mm) for loop in loops])
+    centre = np.array([(loop.x_mm, loop.y_mm) for loop in loops]).reshape(-1, 2)
     radius = np.array([loop.radius_mm for loop in loops])
-    contacts: list[Contact] = []
-    for i in range(len(loops)):
-        distance = np.hypot(*(centre[i + 1 :] - centre[i]).T)
-        gap = distance - radius[i] - radius[i + 1 :]
-        if np.any(gap < -TANGENCY_TOLERANCE_MM):
-            j = i + 1 + int(np.argmin(gap))
-            raise PatternError(
-                f"loops {i} and {j} overlap: their centres are {distance[j - i - 1]:.6g} mm apart, "
-                f"and their radii add up to {radius[i] + radius[j]:.6g} mm"
-            )
-        for j in i + 1 + np.flatnonzero(gap <= TANGENCY_TOLERANCE_MM):
-            x, y = centre[i] + (centre[j] - centre[i]) * radius[i] / (radius[i] + radius[j])
-            contacts.append(Contact(i, int(j), float(x), float(y)))
-    return Layout(loops, tuple(contacts))
+    i, j = _neighbours(centre, radius)
+    distance = np.hypot(*(centre[j] - centre[i]).T)
+    gap = distance - radius[i] - radius[j]
+    if np.any(gap < -TANGENCY_TOLERANCE_MM):
+        k = int(np.argmin(gap))
+        raise PatternError(
+            f"loops {i[k]} and {j[k]} overlap: their centres are {distance[k]:.6g} mm apart, "
+            f"and their radii add up to {radius[i[k]] + radius[j[k]]:.6g} mm"
+        )
+    near = gap <= TANGENCY_TOLERANCE_MM
+    i, j = i[near], j[near]
+    point = centre[i] + (centre[j] - centre[i]) * (radius[i] / (radius[i] + radius[j]))[:, None]
+    return Layout(
+        loops,
+        tuple(
+            Contact(int(a), int(b), float(x), float(y))
+            for a, b, (x, y) in zip(i, j, point, strict=True)
+        ),
+    )
+
+
+def _neighbours(centre: Floats, radius: Floats) -> tuple[Indices, Indices]:
+    """Pairs of loops (first < second, in order) whose bounding boxes come together."""
+    half = (radius + TANGENCY_TOLERANCE_MM)[:, None]
+    boxes = shapely.box(*(centre - half).T, *(centre + half).T)
+    i, j = shapely.STRtree(boxes).query(boxes)
+    i, j = i[i < j], j[i < j]
+    order = np.lexsort((j, i))
+    return i[order], j[order]

@@ -6,6 +6,31 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import (
+    LineString,
+    Point,
+    Polygon,
+    STRtree,
+    get_parts,
+    maximum_inscribed_circle,
+    polygonize,
+    union_all,
+)
+from shapely.geometry.base import BaseGeometry
+
+from patterns.circuit import Circuit
+from patterns.edge_clearance import edge_clearance_mm
+from patterns.errors import PatternError
+from patterns.layout import Layout
+from patterns.path import Line
+from patterns.wire_index import WireIndex
+
+CHORD_TOLERANCE_MM = 0.01
+"""Largest distance between the cut line and the arcs that it stands for."""
+
+_CHORD_MM = 0.002
+_FIRST_EXCESS_MM = 0.003
+_FACE_TOLERANCE_MM = 1e-3
 
 Ring = NDArray[np.float64]
 """A closed line, shape (n, 2) in mm; the first point is not repeated at the end."""
@@ -25,3 +50,156 @@ class Outline:
 
     outside: Ring
     openings: tuple[Ring, ...]
+
+    @property
+    def rings(self) -> tuple[Ring, ...]:
+        """All cut lines, the outside first."""
+        return (self.outside, *self.openings)
+
+    def edges_mm(self) -> tuple[Ring, Ring]:
+        """Starts and ends (n, 2) of the straight edges of all rings, in order."""
+        ends = [np.roll(ring, -1, axis=0) for ring in self.rings]
+        return np.concatenate(self.rings), np.concatenate(ends)
+
+
+def cut_outline(
+    circuit: Circuit, wire_diameter_mm: float, margin_mm: float, corner_radius_mm: float
+) -> Outline:
+    """Leave the fabric in and around the loops and along the tails; cut the rest away.
+
+    Parameters
+    ----------
+    circuit : Circuit
+        The wire.
+    wire_diameter_mm : float
+        Its diameter.
+    margin_mm : float
+        Least fabric between the wire's surface and a cut.
+    corner_radius_mm : float
+        Radius of inner corners, rounded by leaving more fabric; 0 leaves them sharp.
+
+    Raises
+    ------
+    PatternError
+        When a quantity is out of range, or an opening that loops enclose would vanish; the message
+        gives the largest margin that leaves it.
+    """
+    _check_quantities(wire_diameter_mm, margin_mm, corner_radius_mm)
+    clearance = wire_diameter_mm / 2 + margin_mm
+    wires = [WireIndex(circuit.first_half), WireIndex(circuit.second_half)]
+    for excess in (_FIRST_EXCESS_MM, CHORD_TOLERANCE_MM):
+        fabric = _fabric(circuit, clearance + excess, corner_radius_mm)
+        _check_openings(circuit.layout, fabric, wire_diameter_mm, corner_radius_mm)
+        outline = _outline(fabric)
+        found = [edge_clearance_mm(*outline.edges_mm(), wire, 2 * clearance) for wire in wires]
+        if np.min(found) >= clearance:
+            return outline
+    raise PatternError(
+        f"no cut line keeps {margin_mm:g} mm from the wire: two stretches of it, or a loop and a "
+        "tail, lie so that fabric cannot be left around both"
+    )
+
+
+def _check_quantities(wire_diameter_mm: float, margin_mm: float, corner_radius_mm: float) -> None:
+    if wire_diameter_mm <= 0 or margin_mm <= 0 or corner_radius_mm < 0:
+        raise PatternError(
+            f"no outline for {wire_diameter_mm:g} mm wire, a margin of {margin_mm:g} mm and a "
+            f"corner radius of {corner_radius_mm:g} mm: the first two must be positive, the "
+            "radius not negative"
+        )
+
+
+def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> Polygon:
+    """Grow discs and tails by clearance and corner radius, and shrink by the corner radius.
+
+    The result holds everything within the clearance, and its inner corners are round.
+    """
+    grown = clearance_mm + corner_radius_mm
+    parts = [
+        _disc(loop.x_mm, loop.y_mm, loop.radius_mm + grown) for loop in circuit.layout.loops
+    ] + [
+        _grown_line(piece, grown)
+        for half in (circuit.first_half, circuit.second_half)
+        for piece in half.pieces
+        if isinstance(piece, Line)
+    ]
+    fabric: BaseGeometry = union_all(parts)
+    if corner_radius_mm > 0:
+        fabric = fabric.buffer(-corner_radius_mm, quad_segs=_quarter_steps(corner_radius_mm))
+    if not isinstance(fabric, Polygon) or fabric.is_empty:
+        raise PatternError("the fabric falls apart: the wire does not hold all loops together")
+    return fabric
+
+
+def _quarter_steps(radius_mm: float) -> int:
+    """Chords in a quarter of a circle that stay within a fraction of the chord tolerance."""
+    half_turn = np.arccos(max(0.0, 1 - _CHORD_MM / radius_mm))
+    return max(2, int(np.ceil(np.pi / 4 / half_turn)))
+
+
+def _disc(x_mm: float, y_mm: float, radius_mm: float) -> BaseGeometry:
+    """Polygon around a circle: its sides touch the circle, so it holds all of it."""
+    steps = _quarter_steps(radius_mm)
+    return Point(x_mm, y_mm).buffer(radius_mm / np.cos(np.pi / 4 / steps), quad_segs=steps)
+
+
+def _grown_line(line: Line, clearance_mm: float) -> BaseGeometry:
+    steps = _quarter_steps(clearance_mm)
+    ends = LineString([(line.x0_mm, line.y0_mm), (line.x1_mm, line.y1_mm)])
+    return ends.buffer(clearance_mm / np.cos(np.pi / 4 / steps), quad_segs=steps)
+
+
+def _outline(fabric: Polygon) -> Outline:
+    outside = np.array(fabric.exterior.normalize().coords)[:-1]
+    openings = (np.array(ring.normalize().coords)[:-1] for ring in fabric.interiors)
+    ordered = sorted(openings, key=lambda ring: (ring[:, 1].min(), ring[:, 0].min()))
+    return Outline(_turned(outside, 1), tuple(_turned(ring, -1) for ring in ordered))
+
+
+def _turned(ring: Ring, sense: int) -> Ring:
+    """Give the ring counter-clockwise (1) or clockwise (-1)."""
+    x, y = ring.T
+    area = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
+    return ring if area * sense > 0 else ring[::-1].copy()
+
+
+def _check_openings(
+    layout: Layout, fabric: Polygon, wire_diameter_mm: float, corner_radius_mm: float
+) -> None:
+    """Find an opening in every face of the touching graph."""
+    faces = _faces(layout)
+    tree = STRtree([Polygon(ring) for ring in fabric.interiors])
+    open_faces = set(tree.query(faces, predicate="intersects")[0].tolist()) if faces else set()
+    closed = [face for k, face in enumerate(faces) if k not in open_faces]
+    if not closed:
+        return
+    room = min(_room_mm(layout, face) for face in closed)
+    largest = np.floor((room - corner_radius_mm - wire_diameter_mm / 2 - CHORD_TOLERANCE_MM) * 100)
+    advice = (
+        f"the largest margin that leaves it is {largest / 100:.2f} mm"
+        if largest > 0
+        else f"the corner radius must be less than {room - wire_diameter_mm / 2:.2f} mm"
+    )
+    x, y = closed[0].centroid.coords[0]
+    raise PatternError(
+        f"the opening between the loops around ({x:.1f}, {y:.1f}) mm vanishes: with a corner "
+        f"radius of {corner_radius_mm:g} mm, {advice}"
+    )
+
+
+def _faces(layout: Layout) -> list[BaseGeometry]:
+    """Polygons between the centres of loops that touch in a round."""
+    loops = layout.loops
+    links = [
+        LineString([(loops[k].x_mm, loops[k].y_mm) for k in (contact.first, contact.second)])
+        for contact in layout.contacts
+    ]
+    return list(get_parts(polygonize(links)))
+
+
+def _room_mm(layout: Layout, face: BaseGeometry) -> float:
+    """Radius of the largest circle in a face that stays outside the loops."""
+    discs = [_disc(loop.x_mm, loop.y_mm, loop.radius_mm) for loop in layout.loops]
+    near = STRtree(discs).query(face)
+    gap = face.difference(union_all([discs[k] for k in near]))
+    return max(maximum_inscribed_circle(part, _FACE_TOLERANCE_MM).length for part in get_parts(gap))

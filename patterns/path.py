@@ -88,7 +88,7 @@ class WirePath:
         return 1 / largest if largest > 0 else float("inf")
 
     def at(self, s_mm: ArrayLike) -> tuple[Vectors, Vectors]:
-        """Points and unit tangents, each (n, 2), at arclengths ``s_mm`` (n,), clipped to the path."""
+        """Points and unit tangents, each (n, 2), at ``s_mm`` (n,) along the path or at its ends."""
         s = np.clip(np.atleast_1d(np.asarray(s_mm, dtype=float)), 0.0, self.length_mm)
         ends = np.cumsum([piece.length_mm for piece in self.pieces])
         which = np.minimum(np.searchsorted(ends, s, side="left"), len(self.pieces) - 1)
@@ -100,7 +100,7 @@ class WirePath:
         return point, tangent
 
     def joints(self) -> tuple[Vectors, Vectors]:
-        """Jump of position (mm) and of tangent between successive pieces, each (n - 1,); 0 when smooth."""
+        """Jump of position (mm) and of tangent between pieces, each (n - 1,); 0 when smooth."""
         gaps: list[float] = []
         kinks: list[float] = []
         for before, after in pairwise(self.pieces):

@@ -13,6 +13,7 @@ from solver.shape import LoopShape, from_expansion
 
 Vectors = NDArray[np.float64]
 
+CONTACT = "contact across the loop"
 EDGE_POINTS = 256
 WRITHE_POINTS = 48
 LARGEST_WIRE_STRAIN = 0.01
@@ -94,7 +95,7 @@ def looked_back(scene: LoopScene, shape: LoopShape, degree: int) -> tuple[Omitte
             matters=stress < 0 < scene.strain,
         ),
         OmittedTerm(
-            "contact across the loop",
+            CONTACT,
             "overlap of the crests / R",
             max(0.0, -gap),
             matters=gap <= 0,

@@ -1,0 +1,136 @@
+"""Zigzag that ties a wire down without ever meeting wire."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from patterns.errors import PatternError
+from patterns.laid_wire import LaidWire
+from patterns.locks import sides_with_locks, with_locks
+from patterns.machine import Machine
+from patterns.path import Vectors, WirePath
+from patterns.stitching import Stitching
+
+FREE_TAIL_MM = 10.0
+"""Wire at the end of each tail that no stitch holds, for the crimp."""
+
+LARGEST_OFFSET = 4.0
+"""Farthest needle point from its wire, in clearances: past one earlier wire, and no farther."""
+
+CLEAR_TOLERANCE_MM = 1e-6
+
+LEFT = 1.0
+RIGHT = -1.0
+
+Lengths = NDArray[np.float64]
+Sides = NDArray[np.float64]
+
+
+def needle_clearance_mm(wire_diameter_mm: float, machine: Machine, stitching: Stitching) -> float:
+    """Distance of planned needle points from the centreline of wire.
+
+    Half the wire, half the needle and the margin that rounding may use up.
+    """
+    return (wire_diameter_mm + machine.needle_diameter_mm) / 2 + stitching.needle_margin_mm
+
+
+def couching(
+    path: WirePath,
+    span_mm: tuple[float, float],
+    first_side: float,
+    laid: LaidWire,
+    *,
+    clear_mm: float,
+    stitching: Stitching,
+) -> Vectors:
+    """Tie down a stretch of wire in one run, locked at both ends.
+
+    Parameters
+    ----------
+    path
+        The wire.
+    span_mm
+        Where along it the run begins and ends.
+    first_side
+        `LEFT` or `RIGHT`: the side of the wire on which it begins.
+    laid
+        Wire that the needle must miss, this one included.
+    clear_mm
+        Smallest distance of the needle from a centreline.
+
+    Returns
+    -------
+    Vectors
+        Needle points (n, 2) in mm, on alternate sides of the wire but for the locks.
+
+    Raises
+    ------
+    PatternError
+        As `needle_points`, or when the span holds no stitch.
+    """
+    begin, end = span_mm
+    if end - begin < stitching.lock_length_mm:
+        raise PatternError(f"there are only {end - begin:.2f} mm of wire to stitch down")
+    steps = int(np.ceil((end - begin) / stitching.couching_interval_mm - CLEAR_TOLERANCE_MM))
+    stations = np.linspace(begin, end, max(steps, 1) + 1)
+    return needle_points(
+        path,
+        with_locks(stations, stitching.lock_length_mm),
+        sides_with_locks(alternate_sides(len(stations), first_side)),
+        laid,
+        clear_mm,
+    )
+
+
+def alternate_sides(count: int, first_side: float = LEFT) -> Sides:
+    """Sides (n,) of the wire: the first side, the other, and so on."""
+    return first_side * np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+
+
+def needle_points(
+    path: WirePath, stations_mm: Lengths, sides: Sides, laid: LaidWire, clear_mm: float
+) -> Vectors:
+    """Place the needle beside the wire, or beyond an earlier wire that runs next to it.
+
+    Every point goes outward along its normal to the smallest offset, at least ``clear_mm``, at
+    which no wire is nearer than ``clear_mm``. A point with a wire at distance d < clear must move
+    by at least clear - d: stepping so can never pass over the smallest offset.
+
+    Parameters
+    ----------
+    stations_mm, sides
+        Where along the path (n,), and on which side, `LEFT` or `RIGHT` (n,).
+    laid
+        All wire that the needle must miss.
+    clear_mm
+        Smallest distance from a centreline.
+
+    Raises
+    ------
+    PatternError
+        When a point is still not clear at `LARGEST_OFFSET` clearances; the message says where.
+    """
+    point, tangent = path.at(stations_mm)
+    outward = sides[:, None] * np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
+    offset = np.full(len(point), clear_mm)
+    moving = np.arange(len(point))
+    while moving.size:
+        needle = point[moving] + offset[moving, None] * outward[moving]
+        lacking = clear_mm - laid.distance_mm(needle, clear_mm)
+        blocked = lacking > CLEAR_TOLERANCE_MM
+        moving = moving[blocked]
+        offset[moving] += lacking[blocked]
+        if np.any(offset[moving] > LARGEST_OFFSET * clear_mm):
+            worst = moving[np.argmax(offset[moving])]
+            raise _no_place(point[worst], clear_mm)
+    return point + offset[:, None] * outward
+
+
+def _no_place(point_mm: Vectors, clear_mm: float) -> PatternError:
+    x, y = point_mm
+    return PatternError(
+        f"no place for the needle beside the wire at ({x:.2f}, {y:.2f}) mm: within "
+        f"{LARGEST_OFFSET * clear_mm:.2f} mm of it every point is nearer than {clear_mm:.2f} mm to "
+        f"a wire; larger loops, a thinner needle or a smaller margin would make room"
+    )

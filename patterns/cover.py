@@ -1,0 +1,101 @@
+"""Thread satin on the first half of the wire, where the second half comes near it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from patterns.circuit import Circuit
+from patterns.couching import alternate_sides, needle_points
+from patterns.laid_wire import LaidWire, laid_wire
+from patterns.locks import sides_with_locks, with_locks
+from patterns.path import Vectors, WirePath
+from patterns.stitching import Stitching
+
+EDGE_TOLERANCE_MM = 0.005
+
+Lengths = NDArray[np.float64]
+
+
+def covers(
+    circuit: Circuit,
+    laid: LaidWire,
+    clear_mm: float,
+    wire_diameter_mm: float,
+    stitching: Stitching,
+) -> list[Vectors]:
+    """Cover every crossing, from the end of the first half back to its start.
+
+    Parameters
+    ----------
+    laid
+        The first half, which the needle must miss.
+    clear_mm
+        Smallest distance of the needle from a centreline.
+
+    Returns
+    -------
+    list of Vectors
+        For each crossing the needle points (n, 2) in mm, on alternate sides of the first-half wire
+        but for the locks at both ends.
+
+    Raises
+    ------
+    PatternError
+        As `patterns.couching.needle_points`.
+    """
+    spans = sorted(cover_spans_mm(circuit, wire_diameter_mm, stitching).tolist(), reverse=True)
+    stations = [_stations(begin, end, stitching.cover_spacing_mm) for begin, end in spans]
+    sides = [sides_with_locks(alternate_sides(len(own))) for own in stations]
+    locked = [with_locks(own, stitching.lock_length_mm) for own in stations]
+    points = needle_points(
+        circuit.first_half, np.concatenate(locked), np.concatenate(sides), laid, clear_mm
+    )
+    return np.split(points, np.cumsum([len(own) for own in locked])[:-1])
+
+
+def cover_spans_mm(circuit: Circuit, wire_diameter_mm: float, stitching: Stitching) -> Lengths:
+    """Where along the first half each cover begins and ends (n, 2), in the order of the crossings.
+
+    A cover reaches one stitch past the last point at which the surface of the second half is
+    nearer than ``cover_reach_mm``, or to the end of the half.
+    """
+    near_mm = wire_diameter_mm + stitching.cover_reach_mm
+    crossing = np.array([crossing.first_mm for crossing in circuit.crossings])
+    edge = _edges(
+        circuit.first_half,
+        laid_wire(circuit.second_half),
+        np.repeat(crossing, 2),
+        np.tile([-stitching.cover_spacing_mm, stitching.cover_spacing_mm], len(crossing)),
+        near_mm,
+    ).reshape(-1, 2)
+    beyond = edge + np.array([-stitching.cover_spacing_mm, stitching.cover_spacing_mm])
+    return np.clip(beyond, 0.0, circuit.first_half.length_mm)
+
+
+def _stations(begin_mm: float, end_mm: float, spacing_mm: float) -> Lengths:
+    """Needle stations of a cover, evenly, at most a spacing apart."""
+    return np.linspace(begin_mm, end_mm, int(np.ceil((end_mm - begin_mm) / spacing_mm)) + 1)
+
+
+def _edges(
+    path: WirePath, other: LaidWire, start_mm: Lengths, step_mm: Lengths, near_mm: float
+) -> Lengths:
+    """March from each start until the other wire is no longer near, then close in on the edge."""
+    length = path.length_mm
+    inside, outside = start_mm.copy(), start_mm.copy()
+    marching = np.arange(len(start_mm))
+    while marching.size:
+        inside[marching] = outside[marching]
+        outside[marching] = np.clip(inside[marching] + step_mm[marching], 0.0, length)
+        within = (outside[marching] > 0.0) & (outside[marching] < length)
+        marching = marching[within & _is_near(path, other, outside[marching], near_mm)]
+    while np.any(np.abs(outside - inside) > EDGE_TOLERANCE_MM):
+        middle = (inside + outside) / 2
+        near = _is_near(path, other, middle, near_mm)
+        inside, outside = np.where(near, middle, inside), np.where(near, outside, middle)
+    return outside
+
+
+def _is_near(path: WirePath, other: LaidWire, at_mm: Lengths, near_mm: float) -> NDArray[np.bool_]:
+    return other.distance_mm(path.at(at_mm)[0], near_mm) < near_mm

@@ -1,0 +1,163 @@
+"""Where along a wire a point lies, and how far beside it: exact, and quick for many points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely import STRtree, box, points
+
+from patterns.path import Arc, Line, Piece, Vectors, WirePath
+
+Numbers = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """The nearest places on a wire, one for each of n points; each array is (n,).
+
+    Attributes
+    ----------
+    distance_mm : array
+        Distance to the centreline; infinite where no wire lies within reach.
+    station_mm : array
+        Arclength of the nearest place; NaN where there is none.
+    side_mm : array
+        Distance square to the wire, positive on its left. It is smaller in size than
+        ``distance_mm`` only for points beyond an end of the wire. NaN where there is none.
+    """
+
+    distance_mm: Numbers
+    station_mm: Numbers
+    side_mm: Numbers
+
+    @property
+    def overshoot_mm(self) -> Numbers:
+        """How far each point lies beyond an end of the wire, along it; 0 beside the wire."""
+        return np.sqrt(np.maximum(self.distance_mm**2 - self.side_mm**2, 0.0))
+
+
+class WireIndex:
+    """The pieces of a path as arrays, with a tree over their bounding boxes.
+
+    Parameters
+    ----------
+    path : WirePath
+        The wire's centreline.
+    """
+
+    def __init__(self, path: WirePath) -> None:
+        self.length_mm = path.length_mm
+        self.pieces = path.pieces
+        self._length = np.array([piece.length_mm for piece in path.pieces])
+        self._start = np.cumsum(self._length) - self._length
+        self._curvature = np.array([piece.curvature_per_mm for piece in path.pieces])
+        rows = np.array([_numbers(piece) for piece in path.pieces])
+        self._anchor, self._angle = rows[:, :2], rows[:, 2]
+        self._tree = STRtree(box(*np.array([_bounds(piece) for piece in path.pieces]).T))
+
+    def at(self, s_mm: Numbers) -> Vectors:
+        """Give the points (n, 2) at arclengths ``s_mm`` (n,)."""
+        piece = np.searchsorted(self._start, s_mm, side="right") - 1
+        point, _ = self._places(piece, s_mm - self._start[piece])
+        return point
+
+    def pairs(self, where: NDArray[np.object_], reach_mm: float) -> tuple[Indices, Indices]:
+        """Pair geometries with the pieces whose bounding boxes come within ``reach_mm``.
+
+        Returns
+        -------
+        geometry, piece : arrays (m,)
+            Indices of the pairs.
+        """
+        found = self._tree.query(where, predicate="dwithin", distance=reach_mm)
+        return found[0].astype(np.int64), found[1].astype(np.int64)
+
+    def nearest(
+        self,
+        points_mm: Vectors,
+        reach_mm: float,
+        away_from: tuple[Numbers, float] | None = None,
+    ) -> Nearest:
+        """Find the nearest place on the wire for each point within a reach.
+
+        Parameters
+        ----------
+        points_mm : array (n, 2)
+            The points.
+        reach_mm : float
+            Farther wire is not looked for.
+        away_from : (array (n,), float), optional
+            Arclengths, one a point, and a length: pieces whose nearest place is not farther than
+            that along the wire are left out.
+        """
+        which, piece = self.pairs(np.asarray(points(points_mm), dtype=np.object_), reach_mm)
+        distance, along, side = self.to_pieces(points_mm[which], piece)
+        station = along + self._start[piece]
+        eligible = distance <= reach_mm
+        if away_from is not None:
+            eligible &= np.abs(station - away_from[0][which]) > away_from[1]
+        order = np.flatnonzero(eligible)
+        order = order[np.lexsort((distance[order], which[order]))]
+        found, first = np.unique(which[order], return_index=True)
+        best = order[first]
+        result = Nearest(*(np.full(len(points_mm), fill) for fill in (np.inf, np.nan, np.nan)))
+        result.distance_mm[found] = distance[best]
+        result.station_mm[found] = station[best]
+        result.side_mm[found] = side[best]
+        return result
+
+    def to_pieces(self, points_mm: Vectors, piece: Indices) -> tuple[Numbers, Numbers, Numbers]:
+        """Distance, arclength within the piece and signed offset of point i from its piece i."""
+        arc = self._curvature[piece] != 0
+        away = points_mm - self._anchor[piece]
+        along = np.empty(len(piece))
+        along[arc] = self._along_arcs(away[arc], piece[arc])
+        along[~arc] = self._along_lines(away[~arc], piece[~arc])
+        foot, tangent = self._places(piece, along)
+        away = points_mm - foot
+        side = tangent[:, 0] * away[:, 1] - tangent[:, 1] * away[:, 0]
+        return np.hypot(away[:, 0], away[:, 1]), along, side
+
+    def _along_arcs(self, from_centre: Vectors, piece: Indices) -> Numbers:
+        curvature = self._curvature[piece]
+        angle = np.arctan2(from_centre[:, 1], from_centre[:, 0]) - self._angle[piece]
+        turned = np.mod(np.sign(curvature) * angle, 2 * np.pi)
+        sweep = self._length[piece] * np.abs(curvature)
+        end = np.where(turned - sweep < 2 * np.pi - turned, sweep, 0.0)
+        return np.where(turned <= sweep, turned, end) / np.abs(curvature)
+
+    def _along_lines(self, from_start: Vectors, piece: Indices) -> Numbers:
+        angle = self._angle[piece]
+        along = from_start[:, 0] * np.cos(angle) + from_start[:, 1] * np.sin(angle)
+        return np.clip(along, 0.0, self._length[piece])
+
+    def _places(self, piece: Indices, along_mm: Numbers) -> tuple[Vectors, Vectors]:
+        """Points and unit tangents at arclengths within pieces."""
+        curvature = self._curvature[piece]
+        angle = self._angle[piece] + along_mm * curvature
+        ray = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        turn = np.sign(curvature)[:, None]
+        across = turn * np.stack([-ray[:, 1], ray[:, 0]], axis=1)
+        radius = 1 / np.where(curvature == 0, np.inf, np.abs(curvature))
+        reach = np.where(curvature == 0, along_mm, radius)
+        return self._anchor[piece] + reach[:, None] * ray, np.where(turn == 0, ray, across)
+
+
+def _numbers(piece: Piece) -> tuple[float, float, float]:
+    """Start and direction of a line; centre and first angle of an arc."""
+    if isinstance(piece, Line):
+        direction = np.arctan2(piece.y1_mm - piece.y0_mm, piece.x1_mm - piece.x0_mm)
+        return piece.x0_mm, piece.y0_mm, float(direction)
+    return piece.centre_x_mm, piece.centre_y_mm, piece.start_rad
+
+
+def _bounds(piece: Piece, samples: int = 33) -> Numbers:
+    """Box (xmin, ymin, xmax, ymax) around a piece, at most a sagitta too large."""
+    point, _ = piece.at(np.linspace(0.0, piece.length_mm, samples))
+    sagitta = 0.0
+    if isinstance(piece, Arc):
+        sagitta = piece.radius_mm * (1 - np.cos(abs(piece.sweep_rad) / (samples - 1) / 2))
+    return np.concatenate([point.min(axis=0) - sagitta, point.max(axis=0) + sagitta])

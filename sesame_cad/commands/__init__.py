@@ -1,0 +1,1 @@
+"""The commands, one a module; heavy imports stand in the functions that need them."""

@@ -1,0 +1,149 @@
+"""The numbers of a design as plain data: what `design.json` holds."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from patterns.circuit import CrossingKind
+from patterns.electrics import resistance_ohm
+from patterns.plan import StitchPlan
+from patterns.records import Command, Records
+from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
+from sesame_cad.specification import Specification
+from sesame_cad.state import State
+from solver.equilibrium import Equilibrium
+from solver.omitted import OmittedTerm
+from solver.reading import Reading
+from solver.threshold import critical_beta, critical_strain
+
+Data = dict[str, Any]
+
+FORMAT_VERSION = 1
+"""Raised when a key of `design.json` changes its meaning."""
+
+
+def design_data(design: Design, records: Records, files: dict[str, Data]) -> Data:
+    """Everything in `design.json`.
+
+    Parameters
+    ----------
+    records : Records
+        What the stitch file holds.
+    files : dict
+        Size and hash of each file by its path in the design's folder.
+    """
+    spec = design.spec
+    cold = design.cold.materials
+    reading, poisson = Reading(spec.model.reading), spec.fabric.poisson
+    return {
+        "format": FORMAT_VERSION,
+        "name": spec.name,
+        "beta": cold.beta,
+        "beta_hot": design.hot.materials.beta,
+        "scaling_mm": spec.wire.diameter_mm**4 / spec.layout.loop_diameter_mm**3,
+        "strain": spec.fabric.prestrain,
+        "poisson": poisson,
+        "reading": spec.model.reading,
+        "threshold": {
+            "critical_beta": critical_beta(spec.fabric.prestrain, poisson, reading),
+            "critical_strain_cold": critical_strain(cold.beta, poisson, reading),
+            "critical_strain_hot": critical_strain(design.hot.materials.beta, poisson, reading),
+        },
+        "cold": state_data(design.cold),
+        "hot": state_data(design.hot),
+        "circuit": circuit_data(spec, design.pattern),
+        "stitch": stitch_data(design.pattern.plan, records),
+        "outline": {
+            "openings": len(design.pattern.outline.openings),
+            "margin_mm": spec.outline.margin_mm,
+        },
+        "specification": spec.model_dump(mode="json"),
+        "files": files,
+    }
+
+
+def loop_data(found: Equilibrium, seconds: float) -> Data:
+    """Keys of one solved loop; those that need a length or a stiffness in SI units are null."""
+    shape = found.shape
+    return {
+        "buckled": found.buckled,
+        "height_mm": None,
+        "height_over_perimeter": shape.height_over_perimeter,
+        "height_over_radius": shape.height,
+        "pitch_mm": None,
+        "pitch_over_diameter": shape.width / 2,
+        "energy_mJ": None,
+        "energy": found.energy,
+        "energy_terms": found.energy_terms,
+        "status": found.status,
+        "gradient_norm": found.gradient_norm,
+        "lowest_eigenvalue": found.lowest_eigenvalue,
+        "steps": found.steps,
+        "factorizations": found.factorizations,
+        "unknowns": found.unknowns,
+        "height_change": found.height_change,
+        "seconds": round(seconds, 6),
+        "omitted_terms": _omitted_data(found.omitted),
+    }
+
+
+def state_data(state: State) -> Data:
+    """Keys of the array cold or hot."""
+    width, depth = state.footprint_mm
+    return loop_data(state.equilibrium, state.seconds) | {
+        "beta": state.materials.beta,
+        "axial_stiffness": state.materials.axial_stiffness,
+        "height_mm": state.height_mm,
+        "pitch_mm": state.pitch_mm,
+        "footprint_mm": [width, depth],
+        "energy_mJ": state.energy_mJ,
+        "array_energy_mJ": state.energy_mJ * state.rows * state.columns,
+        "omitted_terms": _omitted_data(state.omitted),
+    }
+
+
+def _omitted_data(omitted: tuple[OmittedTerm, ...]) -> list[Data]:
+    return [
+        {"term": t.term, "measure": t.measure, "value": t.value, "matters": t.matters}
+        for t in omitted
+    ]
+
+
+def circuit_data(spec: Specification, laid: Pattern) -> Data:
+    """Keys of the circuit; which crossings are covered is read from the stitches."""
+    circuit, length, diameter = laid.circuit, laid.circuit.wire_length_mm, spec.wire.diameter_mm
+    insulated = Counter(c.kind for c in covered_crossings(spec, laid))
+    contacts = sum(c.kind is CrossingKind.CONTACT for c in circuit.crossings)
+    return {
+        "wire_length_mm": length,
+        "resistance_ohm_cold": resistance_ohm(length, diameter, spec.wire.resistivity_cold_uohm_cm),
+        "resistance_ohm_hot": resistance_ohm(length, diameter, spec.wire.resistivity_hot_uohm_cm),
+        "contacts": contacts,
+        "covered_contacts": insulated[CrossingKind.CONTACT],
+        "terminal_crossings": len(circuit.crossings) - contacts,
+        "covered_terminal_crossings": insulated[CrossingKind.TERMINALS],
+        "closed": circuit.closed,
+        "smallest_bend_radius_mm": min(
+            circuit.first_half.smallest_radius_mm, circuit.second_half.smallest_radius_mm
+        ),
+        "tail_length_mm": spec.stitching.tail_length_mm,
+    }
+
+
+def stitch_data(plan: StitchPlan, records: Records) -> Data:
+    """Keys of the stitch file."""
+    return {
+        "stitches": int((records.command == Command.STITCH).sum()),
+        "jumps": int((records.command == Command.JUMP).sum()),
+        "stops": int((records.command == Command.STOP).sum()),
+        "extent_mm": list(extent_mm(plan)),
+        "blocks": [
+            {
+                "kind": str(block.kind),
+                "instruction": block.instruction,
+                "stitches": sum(len(run.needles) for run in block.runs),
+            }
+            for block in plan.blocks
+        ],
+    }

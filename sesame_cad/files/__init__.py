@@ -1,0 +1,1 @@
+"""Files that leave the program, and the readers that check them."""

@@ -1,0 +1,267 @@
+"""Tajima DST: a 512-byte header, then three bytes a record."""
+
+from __future__ import annotations
+
+import io
+import re
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+from pyembroidery import DstWriter
+
+from patterns.plan import Points
+from patterns.records import LARGEST_STEP, Command, Records
+from sesame_cad.errors import DesignFileError, InputError
+from sesame_cad.files.embroidery import embroidery_pattern
+
+HEADER_BYTES = 512
+RECORD_BYTES = 3
+LABEL_CHARACTERS = 16
+MOST_STOPS = 999
+LARGEST_EXTENT = 99_999
+"""Largest extent, in 0.1 mm, for which the header has room (five figures)."""
+
+_FIELD = re.compile(r"([A-Z+-][A-Z]):([^\r]*)\r")
+_STITCH, _JUMP, _STOP, _END = 0x03, 0x83, 0xC3, 0xF3
+_COMMANDS = {_STITCH: Command.STITCH, _JUMP: Command.JUMP, _STOP: Command.STOP}
+
+
+@dataclass(frozen=True)
+class DstHeader:
+    """What the header says; lengths in units of 0.1 mm.
+
+    Attributes
+    ----------
+    label : str
+        At most 16 characters.
+    record_count : int
+        Records before the end record (ST).
+    stop_count : int
+        Stops or colour changes (CO).
+    right, left, up, down : int
+        How far the design reaches from its start, never negative (+X, -X, +Y, -Y).
+    end : tuple of int
+        Where it ends (AX, AY).
+    """
+
+    label: str
+    record_count: int
+    stop_count: int
+    right: int
+    left: int
+    up: int
+    down: int
+    end: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class DstFile:
+    """A file as read: what it says of itself, and what it holds."""
+
+    header: DstHeader
+    records: Records
+
+
+def dst_header(records: Records, label: str) -> DstHeader:
+    """Sum up records for the header, with the label reduced to what the format can hold."""
+    low, high = _extents(records.xy)
+    return DstHeader(
+        label=clean_label(label),
+        record_count=int(np.sum(records.command != Command.END)),
+        stop_count=int(np.sum(records.command == Command.STOP)),
+        right=int(high[0]),
+        left=-int(low[0]),
+        up=int(high[1]),
+        down=-int(low[1]),
+        end=(int(records.xy[-1, 0]), int(records.xy[-1, 1])),
+    )
+
+
+def clean_label(label: str) -> str:
+    """Keep the printable ASCII characters of a label, at most 16, without spaces at its ends."""
+    printable = "".join(c if " " <= c <= "~" else " " for c in label)
+    return " ".join(printable.split())[:LABEL_CHARACTERS].rstrip()
+
+
+def write_dst(records: Records, label: str) -> bytes:
+    """Encode a design.
+
+    The header is written here: the libraries' has +Y and -Y exchanged, takes labels of any length,
+    counts trims and stops wrongly and errs where the design does not contain its start.
+
+    Parameters
+    ----------
+    label : str
+        Name shown on the machine; cleaned and cut to 16 ASCII characters.
+
+    Raises
+    ------
+    InputError
+        When the header has no room for the numbers, or the records do not end.
+    """
+    ends = np.flatnonzero(records.command == Command.END)
+    if list(ends) != [len(records.command) - 1]:
+        raise InputError("the records do not end with their one end record")
+    header = dst_header(records, label)
+    faults = _faults(records, header)
+    if faults:
+        raise InputError(*faults)
+    whole = io.BytesIO()
+    DstWriter.write(embroidery_pattern(records), whole)
+    return _header_bytes(header) + whole.getvalue()[HEADER_BYTES:]
+
+
+def decode_dst(data: bytes) -> DstFile:
+    """Decode a design and check it against its own header.
+
+    Raises
+    ------
+    DesignFileError
+        When anything in the file is not as the format has it.
+    """
+    if len(data) < HEADER_BYTES + RECORD_BYTES:
+        raise DesignFileError(
+            f"{len(data)} bytes are no DST file: header and end record are "
+            f"{HEADER_BYTES + RECORD_BYTES} bytes"
+        )
+    header = _read_header(data[:HEADER_BYTES])
+    records = _read_records(data[HEADER_BYTES:])
+    _check_header(header, dst_header(records, header.label))
+    return DstFile(header, records)
+
+
+def _extents(xy: Points) -> tuple[Points, Points]:
+    return np.minimum(xy.min(axis=0), 0), np.maximum(xy.max(axis=0), 0)
+
+
+def _faults(records: Records, header: DstHeader) -> tuple[str, ...]:
+    step = np.abs(np.diff(records.xy, axis=0, prepend=0)).max(axis=1)
+    reach = max(header.right, header.left, header.up, header.down)
+    idle = np.isin(records.command, [Command.STOP, Command.END])
+    checks = (
+        (
+            step.max() <= LARGEST_STEP,
+            (
+                f"record {int(np.argmax(step))} moves {step.max() / 10:.1f} mm "
+                f"along one axis; DST holds {LARGEST_STEP / 10} mm"
+            ),
+        ),
+        (not np.any(step[idle]), "a stop or the end moves the hoop; DST cannot say so"),
+        (
+            header.stop_count <= MOST_STOPS,
+            f"{header.stop_count} stops; DST has room for {MOST_STOPS}: split the design",
+        ),
+        (
+            reach <= LARGEST_EXTENT,
+            (
+                f"the design reaches {reach / 10:g} mm from its start; DST has "
+                f"room for {LARGEST_EXTENT / 10} mm"
+            ),
+        ),
+        (header.record_count <= 9_999_999, f"{header.record_count} records; DST counts to 9999999"),
+    )
+    return tuple(message for good, message in checks if not good)
+
+
+def _header_bytes(header: DstHeader) -> bytes:
+    x, y = header.end
+    lines = (
+        f"LA:{header.label:<16}",
+        f"ST:{header.record_count:7d}",
+        f"CO:{header.stop_count:3d}",
+        f"+X:{header.right:5d}",
+        f"-X:{header.left:5d}",
+        f"+Y:{header.up:5d}",
+        f"-Y:{header.down:5d}",
+        f"AX:{'-' if x < 0 else '+'}{abs(x):5d}",
+        f"AY:{'-' if y < 0 else '+'}{abs(y):5d}",
+        "MX:+    0",
+        "MY:+    0",
+        "PD:******",
+    )
+    text = "".join(line + "\r" for line in lines).encode("ascii") + b"\x1a"
+    return text.ljust(HEADER_BYTES, b" ")
+
+
+def _read_header(data: bytes) -> DstHeader:
+    text, mark, _ = data.decode("latin-1").partition("\x1a")
+    if not mark or _FIELD.sub("", text):
+        raise DesignFileError("the DST header is not a list of fields that ends with the byte 1A")
+    found = _FIELD.findall(text)
+    values = dict(found)
+    if len(values) != len(found):
+        raise DesignFileError("a field stands twice in the DST header")
+    return DstHeader(
+        label=values.get("LA", "").rstrip(" "),
+        record_count=_number(values, "ST"),
+        stop_count=_number(values, "CO"),
+        right=_number(values, "+X"),
+        left=_number(values, "-X"),
+        up=_number(values, "+Y"),
+        down=_number(values, "-Y"),
+        end=(_number(values, "AX"), _number(values, "AY")),
+    )
+
+
+def _check_header(said: DstHeader, held: DstHeader) -> None:
+    for field in fields(DstHeader):
+        value, right = getattr(said, field.name), getattr(held, field.name)
+        if value != right:
+            raise DesignFileError(
+                f"the DST header's {field.name} is {value!r}, but its records make it {right!r}"
+            )
+
+
+def _number(values: dict[str, str], field: str) -> int:
+    text = values.get(field)
+    if text is None:
+        raise DesignFileError(f"the DST header has no field {field}")
+    if not re.fullmatch(r" *[+-]? *[0-9]{1,9}", text):
+        raise DesignFileError(f"the DST header's field {field} is no number: {text!r}")
+    return int(text.replace(" ", ""))
+
+
+def _read_records(body: bytes) -> Records:
+    table = np.frombuffer(body[: len(body) // RECORD_BYTES * RECORD_BYTES], dtype=np.uint8)
+    table = table.reshape(-1, RECORD_BYTES)
+    ends = np.flatnonzero(table[:, 2] == _END)
+    if len(ends) == 0:
+        raise DesignFileError(f"the DST file breaks off after {len(table)} records: no end record")
+    table = table[: ends[0] + 1]
+    if body[len(table) * RECORD_BYTES :].strip(b"\x1a\x00 "):
+        raise DesignFileError(f"there are bytes after the end record, record {ends[0]}")
+    kind = (table[:, 2] & 0xC3).astype(np.uint8)
+    kind[-1] = _END
+    step = _steps(table)
+    _check_kinds(kind, step)
+    command = np.full(len(kind), str(Command.END), dtype="<U6")
+    for byte, name in _COMMANDS.items():
+        command[kind == byte] = str(name)
+    return Records(command, np.cumsum(step, axis=0))
+
+
+def _check_kinds(kind: NDArray[np.uint8], step: Points) -> None:
+    unknown = ~np.isin(kind, [*_COMMANDS, _END])
+    moving = np.isin(kind, [_STOP, _END]) & np.any(step != 0, axis=1)
+    for wrong, what in ((unknown, "is of no known kind"), (moving, "stops and moves at once")):
+        if np.any(wrong):
+            raise DesignFileError(f"record {int(np.argmax(wrong))} of the DST file {what}")
+
+
+def _steps(table: NDArray[np.uint8]) -> Points:
+    """Displacements in balanced ternary: one bit a sign of 1, 3, 9, 27 and 81 units."""
+    # Weights of the bits of the three bytes, least significant first.
+    x_weights = (
+        (1, -1, 9, -9, 0, 0, 0, 0),
+        (3, -3, 27, -27, 0, 0, 0, 0),
+        (0, 0, 81, -81, 0, 0, 0, 0),
+    )
+    y_weights = (
+        (0, 0, 0, 0, -9, 9, -1, 1),
+        (0, 0, 0, 0, -27, 27, -3, 3),
+        (0, 0, 0, 0, -81, 81, 0, 0),
+    )
+    bits = np.unpackbits(table.reshape(-1, RECORD_BYTES, 1), axis=2, bitorder="little")
+    weights = np.array([x_weights, y_weights])
+    return np.tensordot(bits.astype(np.int64), weights, axes=([1, 2], [1, 2])).astype(np.int64)

@@ -1,0 +1,116 @@
+"""Cut files for CAM programs: DXF R2010 in millimetres."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+
+import ezdxf
+import numpy as np
+from ezdxf.document import Drawing
+from ezdxf.entities.lwpolyline import LWPolyline
+from ezdxf.lldxf.const import DXFError
+from ezdxf.units import MM
+from numpy.typing import NDArray
+
+from patterns.outline import Outline, Ring
+from patterns.registration import Mark
+from sesame_cad.errors import DesignFileError
+from sesame_cad.files.sheet import lay_out
+
+Strokes = tuple[NDArray[np.float64], ...]
+
+_COLOURS = {"HOLE": 5, "CUT": 1, "MARK": 7, "REFERENCE": 8}
+_METRIC = 1
+
+
+def outline_dxf(outline: Outline, marks: tuple[Mark, ...]) -> str:
+    """Draw cut lines and marks in the design's coordinates, inner lines first.
+
+    Layers: HOLE (openings), CUT (outside), MARK (registration), REFERENCE (a 100 mm bar; not cut).
+    """
+    document = _document()
+    space = document.modelspace()
+    for ring in outline.openings:
+        space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "HOLE"})
+    space.add_lwpolyline(outline.outside.tolist(), close=True, dxfattribs={"layer": "CUT"})
+    for mark in marks:
+        for stroke in mark.strokes:
+            space.add_lwpolyline(stroke.tolist(), dxfattribs={"layer": "MARK"})
+    bar = lay_out(outline, marks).check_bar
+    space.add_lwpolyline(bar.tolist(), dxfattribs={"layer": "REFERENCE"})
+    return _text(document)
+
+
+def read_outline_dxf(text: str) -> tuple[Outline, Strokes]:
+    """Read the cut lines and strokes back.
+
+    Raises
+    ------
+    DesignFileError
+        When the drawing is not in millimetres, a cut line is open or bent, or something other
+        than a polyline is drawn.
+    """
+    document = _read(text)
+    if document.header.get("$INSUNITS", 0) != MM:
+        raise DesignFileError(
+            f"the DXF's units are {document.header.get('$INSUNITS', 0)}, not 4 (mm)"
+        )
+    lines = list(_lines(document))
+    for layer, line in lines:
+        if layer in ("CUT", "HOLE") and not line.closed:
+            raise DesignFileError(f"a line on layer {layer} of the DXF is not closed")
+    outside = [_points(line) for layer, line in lines if layer == "CUT"]
+    if len(outside) != 1:
+        raise DesignFileError(f"{len(outside)} lines on the DXF's layer CUT instead of one")
+    openings = tuple(_points(line) for layer, line in lines if layer == "HOLE")
+    strokes = tuple(_points(line) for layer, line in lines if layer == "MARK")
+    return Outline(outside[0], openings), strokes
+
+
+def _document() -> Drawing:
+    document = ezdxf.new("R2010", setup=False, units=MM)
+    document.header["$MEASUREMENT"] = _METRIC
+    for layer, colour in _COLOURS.items():
+        document.layers.add(layer, color=colour)
+    # A layer that plots nothing keeps the bar out of the cut.
+    document.layers.get("REFERENCE").dxf.plot = 0
+    return document
+
+
+def _text(document: Drawing) -> str:
+    """Write without dates and random identifiers."""
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        stream = io.StringIO()
+        document.write(stream)
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+    return stream.getvalue()
+
+
+def _read(text: str) -> Drawing:
+    try:
+        return ezdxf.read(io.StringIO(text))
+    # A damaged file can fail anywhere in the library.
+    except (DXFError, ValueError, LookupError, TypeError, AttributeError, OSError) as error:
+        raise DesignFileError(f"this is no DXF that can be read: {error}") from error
+
+
+def _lines(document: Drawing) -> Iterator[tuple[str, LWPolyline]]:
+    for entity in document.modelspace():
+        layer = str(entity.dxf.layer)
+        if layer not in _COLOURS:
+            raise DesignFileError(
+                f"the DXF draws on layer {layer!r}; known are {', '.join(_COLOURS)}"
+            )
+        if not isinstance(entity, LWPolyline) or entity.has_arc:
+            raise DesignFileError(
+                f"the DXF's layer {layer} holds a {entity.dxftype()} that is no polyline"
+            )
+        yield layer, entity
+
+
+def _points(line: LWPolyline) -> Ring:
+    return np.array([(x, y) for x, y, *_ in line.get_points()], dtype=np.float64)

@@ -1,0 +1,92 @@
+"""The folder that goes to the workshop."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from patterns.records import Records, plan_records
+from sesame_cad.design_data import design_data
+from sesame_cad.files.dst import write_dst
+from sesame_cad.files.dxf import outline_dxf
+from sesame_cad.files.embroidery import write_embroidery
+from sesame_cad.files.stl import write_stl
+from sesame_cad.files.svg import outline_svg
+from sesame_cad.pictures.plan import plan_picture
+from sesame_cad.pictures.shapes import shapes_picture
+from sesame_cad.pipeline import Design, design
+from sesame_cad.preview import solids
+from sesame_cad.specification import Specification
+from sesame_cad.staging import staged_directory
+
+DESIGN_FILE = "design.json"
+
+Progress = Callable[[str], None]
+
+
+def write_package(spec: Specification, target: Path, progress: Progress) -> dict[str, Any]:
+    """Design an array and write its folder.
+
+    The folder is made aside and moved into place when it is complete, so that a failure leaves an
+    earlier result as it was.
+
+    Returns
+    -------
+    dict
+        What `design.json` holds.
+
+    Raises
+    ------
+    InputError
+        When the specification asks for what cannot be made, or the folder cannot be.
+    NotConvergedError
+        When there is no shape to rely on.
+    """
+    with staged_directory(target) as folder:
+        made = design(spec, progress)
+        records = plan_records(made.pattern.plan, spec.patterns_machine())
+        files: dict[str, dict[str, Any]] = {}
+        for path, content in _files(made, records, progress):
+            _write(folder / path, content)
+            files[path] = file_data(content)
+        data = design_data(made, records, dict(sorted(files.items())))
+        text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+        _write(folder / DESIGN_FILE, f"{text}\n".encode())
+    return data
+
+
+def file_data(content: bytes) -> dict[str, Any]:
+    """Size and hash by which a file is known again."""
+    return {"bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
+
+
+def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple[str, bytes]]:
+    """Every file but `design.json`, by its path in the folder."""
+    spec, laid = made.spec, made.pattern
+    progress("stitch files")
+    for name in spec.output.formats:
+        if name == "dst":
+            yield f"stitch/{spec.name}.dst", write_dst(records, spec.name)
+        else:
+            yield f"stitch/{spec.name}.{name}", write_embroidery(records, name)
+    progress("cut lines")
+    yield f"cut/{spec.name}.svg", outline_svg(laid.outline, laid.marks, spec.name).encode()
+    yield f"cut/{spec.name}.dxf", outline_dxf(laid.outline, laid.marks).encode()
+    for name, solid in solids(made, progress):
+        yield f"shape/{name}.stl", write_stl(solid, f"{spec.name} {name}")
+    if spec.output.pictures:
+        progress("picture of the wire path")
+        yield (
+            "pictures/plan.png",
+            plan_picture(laid.circuit, laid.plan, laid.outline, laid.marks),
+        )
+        progress("picture of the shapes")
+        yield "pictures/shapes.png", shapes_picture(made.states)
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(content)

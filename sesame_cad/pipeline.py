@@ -1,0 +1,150 @@
+"""From a specification to everything the workshop needs, as values; no file is touched here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from math import hypot
+from typing import TypeVar
+
+import numpy as np
+
+from patterns.circuit import Circuit, Crossing
+from patterns.errors import PatternError
+from patterns.outline import Outline, cut_outline
+from patterns.plan import StitchPlan
+from patterns.registration import Mark, registration_marks
+from patterns.rules import check_plan
+from patterns.stitch_plan import stitch_plan
+from patterns.tangent_switch import grid_circuit
+from sesame_cad.errors import InputError
+from sesame_cad.specification import Specification
+from sesame_cad.state import State, solve_state
+from solver.errors import SceneError
+
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """What is sewn and cut, on the stretched fabric.
+
+    Attributes
+    ----------
+    circuit : Circuit
+    outline : Outline
+    marks : tuple of Mark
+    plan : StitchPlan
+    """
+
+    circuit: Circuit
+    outline: Outline
+    marks: tuple[Mark, ...]
+    plan: StitchPlan
+
+
+@dataclass(frozen=True)
+class Design:
+    """Everything that follows from a specification."""
+
+    spec: Specification
+    cold: State
+    hot: State
+    pattern: Pattern
+
+    @property
+    def states(self) -> tuple[State, State]:
+        """Cold and hot."""
+        return self.cold, self.hot
+
+
+def pattern(spec: Specification) -> Pattern:
+    """Lay wire, thread, cut lines and marks.
+
+    Raises
+    ------
+    InputError
+        When the array cannot be sewn or cut as specified.
+    """
+    return _refusing(spec, partial(_pattern, spec))
+
+
+def design(spec: Specification, progress: Callable[[str], None] = lambda _: None) -> Design:
+    """Predict the shapes and lay the pattern.
+
+    Parameters
+    ----------
+    progress : callable
+        Told what is being done.
+
+    Raises
+    ------
+    InputError
+        When the specification asks for what cannot be made.
+    NotConvergedError
+        When there is no shape to rely on.
+    """
+    progress("circuit and stitches")
+    laid = pattern(spec)
+    progress("cold shape")
+    cold = _refusing(spec, partial(solve_state, spec, "cold", spec.wire.modulus_cold_GPa))
+    progress("hot shape")
+    hot = _refusing(spec, partial(solve_state, spec, "hot", spec.wire.modulus_hot_GPa))
+    return Design(spec, cold, hot, laid)
+
+
+def _refusing(spec: Specification, work: Callable[[], Result]) -> Result:
+    """Do the work; what geometry or mechanics refuse is the specification's fault."""
+    try:
+        return work()
+    except (PatternError, SceneError) as error:
+        raise InputError(f"{spec.name}: {error}") from None
+
+
+def _pattern(spec: Specification) -> Pattern:
+    stitching, machine = spec.patterns_stitching(), spec.patterns_machine()
+    wire_mm = spec.wire.diameter_mm
+    circuit = grid_circuit(
+        spec.layout.rows,
+        spec.layout.columns,
+        spec.layout.loop_diameter_mm,
+        stitching.tail_length_mm,
+    )
+    outline = cut_outline(circuit, wire_mm, spec.outline.margin_mm, spec.outline.corner_radius_mm)
+    low, high = outline.outside.min(axis=0), outline.outside.max(axis=0)
+    bounds = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+    marks = registration_marks(bounds, stitching.mark_size_mm, stitching.mark_gap_mm)
+    plan = stitch_plan(circuit, stitching, machine, wire_mm, marks)
+    violations = check_plan(circuit, plan, machine, stitching, wire_mm)
+    if violations:
+        raise InputError(*(f"{spec.name}: {violation}" for violation in violations))
+    return Pattern(circuit, outline, marks, plan)
+
+
+def covered_crossings(spec: Specification, laid: Pattern) -> tuple[Crossing, ...]:
+    """Crossings of the two halves that thread insulates, judged by the stitches themselves."""
+    bare = [
+        violation
+        for violation in check_plan(
+            laid.circuit,
+            laid.plan,
+            spec.patterns_machine(),
+            spec.patterns_stitching(),
+            spec.wire.diameter_mm,
+        )
+        if violation.rule == "insulation"
+    ]
+    crossings = laid.circuit.crossings
+    shorted = {
+        min(crossings, key=lambda c: hypot(c.x_mm - fault.x_mm, c.y_mm - fault.y_mm))
+        for fault in bare
+    }
+    return tuple(crossing for crossing in crossings if crossing not in shorted)
+
+
+def extent_mm(plan: StitchPlan) -> tuple[float, float]:
+    """Width and height of everything that is sewn."""
+    points = np.concatenate([run.needles for block in plan.blocks for run in block.runs])
+    width, height = np.ptp(points, axis=0) / 10
+    return float(width), float(height)

@@ -1,0 +1,260 @@
+"""Printable solids: a sheet of fabric with its edge of wire, and arrays of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import trimesh
+from manifold3d import Error, Manifold, Mesh64, OpType
+from numpy.typing import NDArray
+
+from sesame_cad.errors import InputError
+
+Vectors = NDArray[np.float64]
+Triangles = NDArray[np.int64]
+
+Surface = Callable[[Vectors, Vectors], Vectors]
+"""From radius (n,) in 0..1 and angle (n,) in radians to points (n, 3) in mm."""
+
+Boundary = Callable[[Vectors], Vectors]
+"""From angle (n,) in radians to points (n, 3) in mm."""
+
+MESH_TOLERANCE_MM = 1e-3
+"""Detail below this is merged: far under any printer, far over the spacing of float32 at 1 m."""
+
+WELD_GRIDS_MM = tuple(2.0**-k for k in range(20, 11, -2))
+"""Coordinates are rounded to the finest of these that leaves no two surfaces touching."""
+
+RIM_SHARE = 0.6
+"""The fabric's edge is at most this share of the wire, so that it ends well inside the tube."""
+
+
+def boundary_segments(boundary: Boundary, tolerance_mm: float = 0.05) -> int:
+    """Count the chords, a multiple of 4, that keep within ``tolerance_mm`` of a closed boundary."""
+    segments = 16
+    while _chord_error_mm(boundary, segments) > tolerance_mm:
+        segments += 4
+    return segments
+
+
+def cell_solid(
+    surface: Surface,
+    boundary: Boundary,
+    *,
+    wire_diameter_mm: float,
+    fabric_thickness_mm: float,
+    rings: int,
+    segments: int,
+    sides: int,
+) -> trimesh.Trimesh:
+    """Join a slab of fabric and the tube of wire around it.
+
+    Parameters
+    ----------
+    surface : callable
+        The middle of the fabric; radius 1 is the wire's centreline.
+    boundary : callable
+        The wire's centreline, once around as the angle goes from 0 to 2π.
+    rings : int
+        Steps of the fabric from the centre to the edge.
+    segments : int
+        Chords around the edge, a multiple of 4: see `boundary_segments`.
+    sides : int
+        Sides of the wire's cross-section, a multiple of 4, so that it measures its full diameter
+        along z and across.
+
+    Returns
+    -------
+    trimesh.Trimesh
+        Watertight, in mm.
+
+    Raises
+    ------
+    InputError
+        When the fabric is thicker than the wire, or a number is out of range.
+    """
+    faults = _cell_faults(wire_diameter_mm, fabric_thickness_mm, rings, segments, sides)
+    if faults:
+        raise InputError(*faults)
+    slab = _slab(surface, wire_diameter_mm, fabric_thickness_mm, rings, segments)
+    tube = tube_mesh(boundary, wire_diameter_mm, segments, sides)
+    return _trimesh(_union([_manifold(*slab), _manifold(*tube)]))
+
+
+def array_solid(cell: trimesh.Trimesh, centres_mm: Vectors) -> trimesh.Trimesh:
+    """Join copies of a cell into one solid.
+
+    Parameters
+    ----------
+    centres_mm : array, shape (n, 2)
+        Where the cell's origin goes; neighbours overlap where their wires touch.
+
+    Raises
+    ------
+    InputError
+        When the union does not come out as one closed solid.
+    """
+    solid = _manifold(cell.vertices, cell.faces)
+    return _trimesh(_union([solid.translate((float(x), float(y), 0.0)) for x, y in centres_mm]))
+
+
+def _cell_faults(
+    wire_diameter_mm: float, thickness_mm: float, rings: int, segments: int, sides: int
+) -> tuple[str, ...]:
+    checks = (
+        (
+            0 < thickness_mm <= wire_diameter_mm,
+            (
+                f"fabric of {thickness_mm:g} mm does not end inside "
+                f"wire of {wire_diameter_mm:g} mm: give a thickness up to the wire's diameter"
+            ),
+        ),
+        (rings >= 1, f"rings is {rings}: give 1 or more"),
+        (segments >= 8 and segments % 4 == 0, f"segments is {segments}: give 8, 12, 16, ..."),
+        (sides >= 4 and sides % 4 == 0, f"sides is {sides}: give 4, 8, 12, ..."),
+    )
+    return tuple(message for good, message in checks if not good)
+
+
+def _chord_error_mm(boundary: Boundary, segments: int) -> float:
+    point = boundary(_turn(2 * segments + 1, 2 * segments))
+    return float(np.linalg.norm(point[1::2] - (point[:-1:2] + point[2::2]) / 2, axis=1).max())
+
+
+def _turn(count: int, steps: int) -> Vectors:
+    """Angles from 0 in so many equal steps a turn."""
+    return np.arange(count, dtype=np.float64) * (2 * np.pi / steps)
+
+
+def _slab(
+    surface: Surface, wire_diameter_mm: float, thickness_mm: float, rings: int, segments: int
+) -> tuple[Vectors, Triangles]:
+    """Offset the disc to both sides and close it at the rim."""
+    middle, faces = disc_mesh(surface, rings, segments)
+    half_mm = np.full((len(middle), 1), thickness_mm / 2)
+    half_mm[-segments:] = min(thickness_mm / 2, RIM_SHARE * wire_diameter_mm / 2)
+    offset = _vertex_normals(middle, faces) * half_mm
+    rim = np.arange(len(middle) - segments, len(middle))
+    wall = _quads(rim, np.roll(rim, -1), rim + len(middle), np.roll(rim, -1) + len(middle))
+    closed = np.concatenate([faces, faces[:, ::-1] + len(middle), wall[:, ::-1]])
+    return np.concatenate([middle + offset, middle - offset]), closed
+
+
+def disc_mesh(surface: Surface, rings: int, segments: int) -> tuple[Vectors, Triangles]:
+    """Triangulate a disc: points (1 + rings * segments, 3), the edge last; faces turned to +z."""
+    radius = np.repeat(np.arange(1, rings + 1) / rings, segments)
+    angle = np.tile(_turn(segments, segments), rings)
+    points = surface(np.append(0.0, radius), np.append(0.0, angle))
+    ring = 1 + np.arange(rings * segments).reshape(rings, segments)
+    turned = np.roll(ring, -1, axis=1)
+    fan = np.stack([np.zeros(segments, dtype=np.int64), ring[0], turned[0]], axis=1)
+    bands = _quads(ring[:-1].ravel(), ring[1:].ravel(), turned[:-1].ravel(), turned[1:].ravel())
+    return points, np.concatenate([fan, bands])
+
+
+def tube_mesh(
+    boundary: Boundary, wire_diameter_mm: float, segments: int, sides: int
+) -> tuple[Vectors, Triangles]:
+    """Wrap a closed tube around the boundary; each ring has a vertex as high as it can be.
+
+    Raises
+    ------
+    InputError
+        When the boundary stands upright somewhere: up is then no direction across the wire.
+    """
+    angle = _turn(segments, segments)
+    up, across = _frame(boundary, angle)
+    around = _turn(sides, sides)
+    # Exact zeros and ones at the quarter turns: the height is then the centreline's plus the wire.
+    cosine, sine = np.round(np.cos(around), 15), np.round(np.sin(around), 15)
+    spoke = cosine[None, :, None] * up[:, None] + sine[None, :, None] * across[:, None]
+    points = boundary(angle)[:, None] + wire_diameter_mm / 2 * spoke
+    ring = np.arange(segments * sides).reshape(segments, sides)
+    onward, aside = np.roll(ring, -1, axis=0), np.roll(ring, -1, axis=1)
+    corner = np.roll(onward, -1, axis=1)
+    return points.reshape(-1, 3), _quads(
+        ring.ravel(), onward.ravel(), aside.ravel(), corner.ravel()
+    )[:, ::-1]
+
+
+def _frame(boundary: Boundary, angle: Vectors) -> tuple[Vectors, Vectors]:
+    step = 1e-4
+    tangent = boundary(angle + step) - boundary(angle - step)
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+    up = np.array([0.0, 0.0, 1.0]) - tangent[:, 2:] * tangent
+    length = np.linalg.norm(up, axis=1, keepdims=True)
+    if length.min() < 1e-3:
+        place = np.rad2deg(angle[int(np.argmin(length))])
+        raise InputError(f"the wire stands upright at {place:.0f}° around its loop")
+    return up / length, np.cross(tangent, up / length)
+
+
+def _quads(a: Triangles, b: Triangles, c: Triangles, d: Triangles) -> Triangles:
+    """Two triangles each for the quadrilaterals a-b-d-c."""
+    return np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)])
+
+
+def _vertex_normals(points: Vectors, faces: Triangles) -> Vectors:
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    weighted = np.cross(b - a, c - a)
+    normal = np.zeros_like(points)
+    for k in range(3):
+        np.add.at(normal, faces[:, k], weighted)
+    return normal / np.linalg.norm(normal, axis=1, keepdims=True)
+
+
+def _manifold(points: Vectors, faces: Triangles) -> Manifold:
+    # Plain copies: the binding takes no subclass of ndarray, such as trimesh holds.
+    return Manifold(
+        Mesh64(np.array(points, dtype=np.float64), np.array(faces, dtype=np.uint64, order="C"))
+    )
+
+
+def _union(parts: list[Manifold]) -> Manifold:
+    return Manifold.batch_boolean(parts, OpType.Add)
+
+
+def _trimesh(solid: Manifold) -> trimesh.Trimesh:
+    if solid.status() != Error.NoError:
+        raise InputError(f"the surface does not close to a solid: {solid.status().name}")
+    mesh = solid.simplify(MESH_TOLERANCE_MM).to_mesh64()
+    for grid_mm in WELD_GRIDS_MM:
+        points, faces = _weld(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), grid_mm)
+        if _is_closed(faces):
+            return trimesh.Trimesh(points, faces, process=False)
+    raise InputError("the solid touches itself along an edge: change the segments or the sides")
+
+
+def _is_closed(faces: Triangles) -> bool:
+    """Whether every edge belongs to two triangles."""
+    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return bool(np.all(np.bincount(_row_numbers(edges)) == 2))
+
+
+def _weld(points: Vectors, faces: Triangles, grid_mm: float) -> tuple[Vectors, Triangles]:
+    """Merge the points that a file of 32-bit floats cannot tell apart."""
+    # The grid keeps values next to zero, where floats lie dense, from being told apart either;
+    # adding zero turns -0 into 0.
+    coarse = (np.round(points / grid_mm) * grid_mm + 0.0).astype(np.float32)
+    where = _row_numbers(coarse)
+    welded = np.empty((where.max() + 1, 3))
+    welded[where] = coarse
+    faces = where[faces]
+    a, b, c = faces.T
+    return welded, _without_fins(faces[(a != b) & (b != c) & (c != a)])
+
+
+def _without_fins(faces: Triangles) -> Triangles:
+    """Drop triangles that lie back to back: solid or gap without a thickness."""
+    which = _row_numbers(np.sort(faces, axis=1))
+    return faces[np.bincount(which)[which] == 1]
+
+
+def _row_numbers(rows: NDArray[np.number]) -> Triangles:
+    """Number the rows in rising order, equal rows alike: `numpy.unique` takes ten times as long."""
+    order = np.lexsort(rows.T[::-1])
+    risen = np.any(np.diff(rows[order], axis=0) != 0, axis=1)
+    number = np.zeros(len(rows), dtype=np.int64)
+    number[order[1:]] = np.cumsum(risen)
+    return number

@@ -1,0 +1,106 @@
+"""The specification: everything a maker decides about an array."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from patterns.machine import Machine
+from patterns.stitching import Stitching
+from sesame_cad.specification.consistency import Together, inconsistencies
+from sesame_cad.specification.fabric import FabricSection
+from sesame_cad.specification.layout import LayoutSection
+from sesame_cad.specification.machine import MachineSection
+from sesame_cad.specification.model import ModelSection
+from sesame_cad.specification.outline import OutlineSection
+from sesame_cad.specification.output import OutputSection
+from sesame_cad.specification.section import Allowed, Section
+from sesame_cad.specification.stitching import StitchingSection
+from sesame_cad.specification.toml_text import number_text, toml_value
+from sesame_cad.specification.wire import WireSection
+
+PREVIEW_WIRE_DIAMETERS = 0.8
+"""The preview's fabric is no thicker than this, so that its edge stays inside the wire."""
+
+Name = Annotated[
+    str,
+    Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"),
+    Allowed("1 to 64 letters, digits and - _ . in quotes, and begin with a letter or a digit"),
+]
+
+
+class Specification(Section):
+    """Everything a maker decides about an array, checked."""
+
+    name: Name = Field(
+        description="the design's name (a text); when left out, the file's name without its ending"
+    )
+    fabric: FabricSection = Field(default=FabricSection(), description="the stretched fabric")
+    wire: WireSection = Field(description="the shape-memory wire")
+    layout: LayoutSection = Field(description="the arrangement of the loops")
+    model: ModelSection = Field(
+        default=ModelSection(), description="the mechanics behind the shape"
+    )
+    stitching: StitchingSection = Field(
+        default=StitchingSection(), description="how the wire is tied down and covered"
+    )
+    machine: MachineSection = Field(
+        default=MachineSection(), description="the embroidery machine and its hoop"
+    )
+    outline: OutlineSection = Field(default=OutlineSection(), description="where the fabric is cut")
+    output: OutputSection = Field(default=OutputSection(), description="the files that are written")
+
+    @model_validator(mode="after")
+    def _goes_together(self) -> Specification:
+        together = Together(self.wire, self.layout, self.stitching, self.machine, self.output)
+        faults = inconsistencies(together)
+        if faults:
+            raise ValueError("\n".join(map(str, faults)))
+        return self
+
+    @property
+    def preview_thickness_mm(self) -> float:
+        """Thickness of the fabric in the printable preview, in mm."""
+        if self.output.preview_thickness_mm is not None:
+            return self.output.preview_thickness_mm
+        return min(self.fabric.thickness_mm, PREVIEW_WIRE_DIAMETERS * self.wire.diameter_mm)
+
+    def patterns_machine(self) -> Machine:
+        """Give the machine as the geometry knows it."""
+        return Machine(**self.machine.model_dump(exclude={"name"}))
+
+    def patterns_stitching(self) -> Stitching:
+        """Give the stitching settings as the geometry knows them."""
+        return Stitching(**self.stitching.model_dump())
+
+    def to_toml(self) -> str:
+        """Write the specification in full; reading it back gives an equal one.
+
+        Every key stands there, in the order of the declarations; one without a value is a comment.
+        """
+        return "\n".join(self._toml_lines()) + "\n"
+
+    def _toml_lines(self) -> Iterator[str]:
+        yield f"name = {toml_value(self.name)}"
+        for name in sections():
+            section: Section = getattr(self, name)
+            yield from ("", f"[{name}]")
+            for key in type(section).model_fields:
+                yield _toml_line(key, getattr(section, key))
+
+
+def sections() -> dict[str, type[Section]]:
+    """Give the section classes by name, in the order in which they are written."""
+    return {
+        name: field.annotation
+        for name, field in Specification.model_fields.items()
+        if isinstance(field.annotation, type) and issubclass(field.annotation, Section)
+    }
+
+
+def _toml_line(key: str, value: object) -> str:
+    if value is None:
+        return f"# {key} is left to its default"
+    return f"{key} = {number_text(value) if isinstance(value, float) else toml_value(value)}"

@@ -1,0 +1,114 @@
+"""What a person at the terminal is told of a design."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+Data = dict[str, Any]
+
+
+def print_design(data: Data, folder: Path) -> None:
+    """Print the numbers that decide whether an array is worth sewing; warnings come first."""
+    console = Console(highlight=False)
+    for name in ("cold", "hot"):
+        for left in data[name]["omitted_terms"]:
+            if left["matters"]:
+                console.print(
+                    f"[yellow]warning[/]: {name}: {left['term']} is left out, and matters: "
+                    f"{left['measure']} = {left['value']:.3g}"
+                )
+    console.print(_grid(_model_rows(data)))
+    console.print(_states(data))
+    console.print(_grid(_workshop_rows(data)))
+    console.print(f"wrote {folder}/", soft_wrap=True)
+
+
+def print_loop(data: Data) -> None:
+    """Print one dimensionless loop."""
+    console = Console(highlight=False)
+    rows = [
+        ("shape", _shape_name(data)),
+        ("height / perimeter", f"{data['height_over_perimeter']:.6f}"),
+        ("height / radius", f"{data['height_over_radius']:.6f}"),
+        ("pitch / diameter", f"{data['pitch_over_diameter']:.6f}"),
+        ("energy / (E_f t R²)", f"{data['energy']:.8f}"),
+        *((f"  {term}", f"{value:.8f}") for term, value in data["energy_terms"].items()),
+        ("status", data["status"]),
+        ("gradient norm", f"{data['gradient_norm']:.1e}"),
+        ("lowest eigenvalue", f"{data['lowest_eigenvalue']:.6g}"),
+        ("steps", f"{data['steps']} on {data['unknowns']} unknowns"),
+        ("seconds", f"{data['seconds']:.4f}"),
+    ]
+    console.print(_grid(rows))
+    for left in data["omitted_terms"]:
+        mark = "[yellow]warning[/], left out" if left["matters"] else "left out"
+        console.print(f"{mark}: {left['term']} ({left['measure']} = {left['value']:.3g})")
+
+
+def _shape_name(state: Data) -> str:
+    return "saddle" if state["buckled"] else "flat (below the buckling threshold)"
+
+
+def _model_rows(data: Data) -> list[tuple[str, str]]:
+    threshold = data["threshold"]
+    return [
+        ("design", data["name"]),
+        ("β cold, hot", f"{data['beta']:.5f}, {data['beta_hot']:.5f}"),
+        ("β at which it stays flat", f"{threshold['critical_beta']:.5f}"),
+        (
+            "prestrain, needed to buckle",
+            f"{data['strain']:g}, cold {threshold['critical_strain_cold']:.4f}, "
+            f"hot {threshold['critical_strain_hot']:.4f}",
+        ),
+        ("d_w⁴/d_0³", f"{data['scaling_mm']:.3e} mm"),
+    ]
+
+
+def _states(data: Data) -> Table:
+    table = Table(box=None, pad_edge=False)
+    for heading in ("", "shape", "height", "h/(π d_0)", "pitch", "footprint", "energy of a loop"):
+        table.add_column(heading, justify="left" if heading in ("", "shape") else "right")
+    for name in ("cold", "hot"):
+        state = data[name]
+        width, depth = state["footprint_mm"]
+        table.add_row(
+            name,
+            _shape_name(state),
+            f"{state['height_mm']:.2f} mm",
+            f"{state['height_over_perimeter']:.4f}",
+            f"{state['pitch_mm']:.2f} mm",
+            f"{width:.1f} × {depth:.1f} mm",
+            f"{state['energy_mJ']:.2f} mJ",
+        )
+    return table
+
+
+def _workshop_rows(data: Data) -> list[tuple[str, str]]:
+    circuit, stitch = data["circuit"], data["stitch"]
+    width, height = stitch["extent_mm"]
+    return [
+        (
+            "wire",
+            f"{circuit['wire_length_mm']:.0f} mm with tails, "
+            f"{circuit['resistance_ohm_cold']:.2f} Ω cold, "
+            f"{circuit['resistance_ohm_hot']:.2f} Ω hot",
+        ),
+        ("contacts covered", f"{circuit['covered_contacts']} of {circuit['contacts']}"),
+        (
+            "stitches",
+            f"{stitch['stitches']} in {len(stitch['blocks'])} blocks, {stitch['stops']} stops, "
+            f"{width:.1f} × {height:.1f} mm",
+        ),
+        ("openings to cut", f"{data['outline']['openings']}"),
+    ]
+
+
+def _grid(rows: list[tuple[str, str]]) -> Table:
+    table = Table.grid(padding=(0, 2))
+    for name, value in rows:
+        table.add_row(name, value)
+    return table

@@ -1,0 +1,51 @@
+import numpy as np
+import pytest
+
+from solver.checks import smallest_bend_radius, smallest_stress, smallest_wire_gap, writhe
+from solver.compact import solve_loop
+from solver.disc_functions import DiscFunction
+from solver.flat import flat_shape
+from solver.scene import LoopScene
+from solver.shape import LoopShape, from_expansion
+from solver.symmetry import saddle
+
+
+def test_writhe_of_a_saddle_is_zero():
+    edge = solve_loop(LoopScene(0.3, 0.0145, 0.3)).shape.edge(64)
+    assert writhe(edge) == pytest.approx(0, abs=1e-6)
+
+
+def test_writhe_of_a_trefoil():
+    """The standard torus trefoil; its writhe is 3.4 or so, and changes sign in the mirror."""
+    t = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    knot = np.stack(
+        [np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], axis=1
+    )
+    value = writhe(knot)
+    assert 3.0 < abs(value) < 3.8
+    assert writhe(knot * [1, 1, -1]) == pytest.approx(-value)
+    assert writhe(0.1 * knot + 5) == pytest.approx(value)
+
+
+def test_flat_stress_is_the_line_tension():
+    scene = LoopScene(0.3, 0.05, 0.3, axial_stiffness=1e9)
+    assert smallest_stress(scene, flat_shape(scene, 5), 5) == pytest.approx(
+        ((1.3**2 - 1) / 2) / 0.7, rel=1e-6
+    )
+
+
+def test_bend_radius_of_the_flat_loop():
+    scene = LoopScene(0.3, 0.05, 0.3, axial_stiffness=1e9)
+    assert smallest_bend_radius(flat_shape(scene, 5), 5) == pytest.approx(1, rel=1e-6)
+
+
+def test_wire_gap_of_the_flat_loop_is_its_diameter_seen_from_a_quarter_turn():
+    scene = LoopScene(0.3, 0.05, 0.3, axial_stiffness=1e9)
+    assert smallest_wire_gap(flat_shape(scene, 5)) == pytest.approx(2**0.5, rel=1e-6)
+
+
+def test_crossed_crests_are_seen():
+    unknowns = saddle(5)
+    inside_out = {(0, DiscFunction(1, 0, "cos")): -0.1, (1, DiscFunction(1, 0, "sin")): -0.1}
+    shape = LoopShape(unknowns, from_expansion(unknowns, inside_out))
+    assert smallest_wire_gap(shape) < 0
