@@ -61,7 +61,7 @@ def cover_spans_mm(circuit: Circuit, wire_diameter_mm: float, stitching: Stitchi
     nearer than ``cover_reach_mm``, or to the end of the half.
     """
     near_mm = wire_diameter_mm + stitching.cover_reach_mm
-    crossing = np.array([crossing.first_mm for crossing in circuit.crossings])
+    crossing = np.array([crossing.first_mm for crossing in circuit.crossings], dtype=float)
     edge = _edges(
         circuit.first_half,
         laid_wire(circuit.second_half),

@@ -93,8 +93,9 @@ class WirePath:
         ends = np.cumsum([piece.length_mm for piece in self.pieces])
         which = np.minimum(np.searchsorted(ends, s, side="left"), len(self.pieces) - 1)
         point, tangent = np.empty((len(s), 2)), np.empty((len(s), 2))
-        for k in np.unique(which):
-            here = which == k
+        order = np.argsort(which, kind="stable")
+        found, begin = np.unique(which[order], return_index=True)
+        for k, here in zip(found, np.split(order, begin[1:]), strict=False):
             start = ends[k] - self.pieces[k].length_mm
             point[here], tangent[here] = self.pieces[k].at(s[here] - start)
         return point, tangent

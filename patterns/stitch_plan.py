@@ -123,7 +123,7 @@ def _instructions(
         ),
         BlockKind.COVER: (
             f"Do not cut the wire: pull out at least {slack} mm of slack and hold it clear of the "
-            f"needle. Thread head, cover thread: {len(satin)} covers insulate the first half."
+            f"needle. Thread head, cover thread: satin on the first half, {len(satin)} crossings."
         ),
         BlockKind.WIRE_SECOND: (
             f"Wire head, the same wire: take the slack back. The second half is laid. Then cut the "

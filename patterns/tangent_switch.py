@@ -106,7 +106,7 @@ def single_circuit(
             CrossingKind.TERMINALS,
             float(point[0]),
             float(point[1]),
-            tail_length_mm,
+            float(tail_length_mm),
             ends[-1] - middle,
         ),
     )

@@ -16,13 +16,12 @@ from sesame_cad.files.embroidery import write_embroidery
 from sesame_cad.files.stl import write_stl
 from sesame_cad.files.svg import outline_svg
 from sesame_cad.pictures.plan import plan_picture
-from sesame_cad.pictures.shapes import shapes_picture
+from sesame_cad.pictures.shapes import ShapeView, shapes_picture
 from sesame_cad.pipeline import Design, design
 from sesame_cad.preview import solids
 from sesame_cad.specification import Specification
-from sesame_cad.staging import staged_directory
-
-DESIGN_FILE = "design.json"
+from sesame_cad.staging import DESIGN_FILE, staged_directory
+from sesame_cad.state import State
 
 Progress = Callable[[str], None]
 
@@ -84,7 +83,20 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
             plan_picture(laid.circuit, laid.plan, laid.outline, laid.marks),
         )
         progress("picture of the shapes")
-        yield "pictures/shapes.png", shapes_picture(made.states)
+        yield (
+            "pictures/shapes.png",
+            shapes_picture([_view(made.spec, state) for state in made.states]),
+        )
+
+
+def _view(spec: Specification, state: State) -> ShapeView:
+    height = f"{state.height_mm:.1f} mm high" if state.equilibrium.buckled else "flat"
+    return ShapeView(
+        f"{state.name}: {height}, pitch {state.pitch_mm:.1f} mm",
+        state.surface,
+        state.centres_mm(),
+        spec.wire.diameter_mm,
+    )
 
 
 def _write(path: Path, content: bytes) -> None:

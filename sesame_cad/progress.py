@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 
 from rich.console import Console
 
 
 @contextmanager
-def telling(*, quiet: bool) -> Iterator[Callable[[str], None]]:
+def telling(*, quiet: bool) -> Generator[Callable[[str], None]]:
     """Give a function that is told what is being done; a person at a terminal sees it.
 
     Nothing is shown when ``quiet``, or when the errors do not go to a terminal.

@@ -7,16 +7,18 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from patterns.errors import PatternError
-from patterns.outline import Outline, check_outline
+from patterns.outline import Outline
 from patterns.plan import UNITS_PER_MM, StitchPlan
 from patterns.records import Records, plan_from_records, plan_records
 from patterns.rules import check_plan
+from patterns.rules.outline import check_outline
 from sesame_cad.design_data import FORMAT_VERSION, design_data
 from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.dst import decode_dst
@@ -24,9 +26,10 @@ from sesame_cad.files.dxf import read_outline_dxf
 from sesame_cad.files.embroidery import read_embroidery
 from sesame_cad.files.stl import read_stl
 from sesame_cad.files.svg import read_outline_svg
-from sesame_cad.package import DESIGN_FILE, file_data
+from sesame_cad.package import file_data
 from sesame_cad.pipeline import Design, design
 from sesame_cad.specification import specification_from
+from sesame_cad.staging import DESIGN_FILE
 from solver.errors import NotConvergedError
 
 HEIGHT_TOLERANCE_MM = 0.01
@@ -37,8 +40,9 @@ OUTLINE_TOLERANCE_MM = 0.002
 RELATIVE_TOLERANCE = 1e-6
 """Numbers are made again on another machine at most this far off."""
 
-MOST_FAULTS = 20
-"""Of one kind; more are counted."""
+MOST_FAULTS = 100
+MOST_OF_A_RULE = 5
+"""More faults of a kind, or of one design rule, are only counted."""
 
 Faults = Iterator[str]
 Data = dict[str, Any]
@@ -65,7 +69,7 @@ def verify(folder: Path) -> tuple[str, ...]:
     except DesignFileError as error:
         return (f"{DESIGN_FILE}: {error}",)
     reading = _Reading(folder, data, made)
-    return tuple(fault for part in CHECKS for fault in _limited(part(reading)))
+    return tuple(fault for part in CHECKS for fault in _limited(part(reading), MOST_FAULTS))
 
 
 @dataclass(frozen=True)
@@ -115,10 +119,10 @@ def _made_again(data: Data) -> Design:
         raise DesignFileError(str(error)) from None
 
 
-def _limited(faults: Faults) -> Faults:
+def _limited(faults: Iterator[str], most: int) -> Faults:
     more = 0
     for count, fault in enumerate(faults):
-        if count < MOST_FAULTS:
+        if count < most:
             yield fault
         else:
             more += 1
@@ -159,9 +163,7 @@ def _check_numbers(reading: _Reading) -> Faults:
     yield from _differences(reading.data, expected, DESIGN_FILE)
 
 
-ACCOUNT = frozenset(
-    {"seconds", "steps", "factorizations", "gradient_norm", "height_change"}
-)
+ACCOUNT = frozenset({"seconds", "steps", "factorizations", "gradient_norm", "height_change"})
 """Keys that tell how a number was found; they may differ where the number does not."""
 
 
@@ -196,7 +198,9 @@ def _check_stitches(reading: _Reading) -> Faults:
         if content is None:
             continue
         try:
-            records = decode_dst(content).records if kind == "dst" else read_embroidery(content, kind)
+            records = (
+                decode_dst(content).records if kind == "dst" else read_embroidery(content, kind)
+            )
         except DesignFileError as error:
             yield f"{path}: {error}"
             continue
@@ -233,16 +237,15 @@ def _rule_faults(records: Records, made: Design) -> Faults:
     except PatternError as error:
         yield str(error)
         return
-    yield from map(
-        str,
-        check_plan(
-            made.pattern.circuit,
-            plan,
-            spec.patterns_machine(),
-            spec.patterns_stitching(),
-            spec.wire.diameter_mm,
-        ),
+    violations = check_plan(
+        made.pattern.circuit,
+        plan,
+        spec.patterns_machine(),
+        spec.patterns_stitching(),
+        spec.wire.diameter_mm,
     )
+    for _, of_rule in groupby(violations, key=lambda violation: violation.rule):
+        yield from _limited(map(str, of_rule), MOST_OF_A_RULE)
 
 
 def _check_cut(reading: _Reading) -> Faults:
@@ -267,9 +270,7 @@ def _check_cut(reading: _Reading) -> Faults:
         if not _same_lines(strokes, expected):
             yield f"{path}: the registration marks are not those of the stitch file"
         margin = spec.outline.margin_mm - OUTLINE_TOLERANCE_MM
-        for fault in check_outline(
-            outline, laid.circuit, spec.wire.diameter_mm, margin, laid.plan
-        ):
+        for fault in check_outline(outline, laid.circuit, spec.wire.diameter_mm, margin, laid.plan):
             yield f"{path}: {fault}"
 
 

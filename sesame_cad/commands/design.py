@@ -29,7 +29,7 @@ QUANTITIES = MappingProxyType(
 
 
 def _quantity_options(function: Callable[..., None]) -> Callable[..., None]:
-    for name, (_, text) in reversed(QUANTITIES.items()):
+    for name, (_, text) in reversed(list(QUANTITIES.items())):
         function = click.option(f"--{name.replace('_', '-')}", name, help=text)(function)
     return function
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 
-import ezdxf
 import numpy as np
+from ezdxf._options import options
 from ezdxf.document import Drawing
 from ezdxf.entities.lwpolyline import LWPolyline
+from ezdxf.filemanagement import new, read
+from ezdxf.layouts.layout import Modelspace
 from ezdxf.lldxf.const import DXFError
 from ezdxf.units import MM
 from numpy.typing import NDArray
@@ -29,8 +32,13 @@ def outline_dxf(outline: Outline, marks: tuple[Mark, ...]) -> str:
 
     Layers: HOLE (openings), CUT (outside), MARK (registration), REFERENCE (a 100 mm bar; not cut).
     """
-    document = _document()
-    space = document.modelspace()
+    with _without_dates():
+        document = _document()
+        _draw(document.modelspace(), outline, marks)
+        return _text(document)
+
+
+def _draw(space: Modelspace, outline: Outline, marks: tuple[Mark, ...]) -> None:
     for ring in outline.openings:
         space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "HOLE"})
     space.add_lwpolyline(outline.outside.tolist(), close=True, dxfattribs={"layer": "CUT"})
@@ -39,10 +47,9 @@ def outline_dxf(outline: Outline, marks: tuple[Mark, ...]) -> str:
             space.add_lwpolyline(stroke.tolist(), dxfattribs={"layer": "MARK"})
     bar = lay_out(outline, marks).check_bar
     space.add_lwpolyline(bar.tolist(), dxfattribs={"layer": "REFERENCE"})
-    return _text(document)
 
 
-def read_outline_dxf(text: str) -> tuple[Outline, Strokes]:
+def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
     """Read the cut lines and strokes back.
 
     Raises
@@ -51,7 +58,7 @@ def read_outline_dxf(text: str) -> tuple[Outline, Strokes]:
         When the drawing is not in millimetres, a cut line is open or bent, or something other
         than a polyline is drawn.
     """
-    document = _read(text)
+    document = _read(data)
     if document.header.get("$INSUNITS", 0) != MM:
         raise DesignFileError(
             f"the DXF's units are {document.header.get('$INSUNITS', 0)}, not 4 (mm)"
@@ -69,7 +76,7 @@ def read_outline_dxf(text: str) -> tuple[Outline, Strokes]:
 
 
 def _document() -> Drawing:
-    document = ezdxf.new("R2010", setup=False, units=MM)
+    document = new("R2010", setup=False, units=MM)
     document.header["$MEASUREMENT"] = _METRIC
     for layer, colour in _COLOURS.items():
         document.layers.add(layer, color=colour)
@@ -79,20 +86,25 @@ def _document() -> Drawing:
 
 
 def _text(document: Drawing) -> str:
-    """Write without dates and random identifiers."""
-    before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True
-    try:
-        stream = io.StringIO()
-        document.write(stream)
-    finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
+    stream = io.StringIO()
+    document.write(stream)
     return stream.getvalue()
 
 
-def _read(text: str) -> Drawing:
+@contextmanager
+def _without_dates() -> Generator[None]:
+    """Keep dates and random identifiers out of documents that are made and written within."""
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
     try:
-        return ezdxf.read(io.StringIO(text))
+        yield
+    finally:
+        options.write_fixed_meta_data_for_testing = before
+
+
+def _read(data: bytes) -> Drawing:
+    try:
+        return read(io.StringIO(data.decode("utf-8")))
     # A damaged file can fail anywhere in the library.
     except (DXFError, ValueError, LookupError, TypeError, AttributeError, OSError) as error:
         raise DesignFileError(f"this is no DXF that can be read: {error}") from error

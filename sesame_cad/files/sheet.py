@@ -45,7 +45,7 @@ class Sheet:
 
 
 def lay_out(outline: Outline, marks: tuple[Mark, ...]) -> Sheet:
-    """Choose a page, in whole millimetres, around outline and marks, with the check bar below them."""
+    """Choose a page around outline and marks, with the check bar below them."""
     strokes = [stroke for mark in marks for stroke in mark.strokes]
     points = np.concatenate([outline.outside, *strokes])
     left, bottom = np.floor(points.min(axis=0)) - MARGIN_MM

@@ -48,7 +48,7 @@ def outline_svg(outline: Outline, marks: tuple[Mark, ...], name: str) -> str:
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, "unicode") + "\n"
 
 
-def read_outline_svg(text: str) -> tuple[Outline, Strokes]:
+def read_outline_svg(data: bytes) -> tuple[Outline, Strokes]:
     """Read the cut lines and strokes back, in the design's coordinates.
 
     Raises
@@ -56,7 +56,7 @@ def read_outline_svg(text: str) -> tuple[Outline, Strokes]:
     DesignFileError
         When the page is not in millimetres, a cut line is open, or a layer is missing.
     """
-    root = _parse(text)
+    root = _parse(data)
     sheet = _read_sheet(root)
     layers = {
         group.get(f"{{{_INKSCAPE}}}label"): [
@@ -125,12 +125,13 @@ def _number(value_mm: float) -> str:
     return f"{round(value_mm, 3) + 0.0:.3f}"
 
 
-def _parse(text: str) -> ElementTree.Element:
-    if "<!DOCTYPE" in text or "<!ENTITY" in text:
-        raise DesignFileError("the SVG declares entities; these cut files have none")
+def _parse(data: bytes) -> ElementTree.Element:
     try:
-        return ElementTree.fromstring(text.encode())
-    except (ElementTree.ParseError, ValueError) as error:
+        text = data.decode("utf-8")
+        if "<!DOCTYPE" in text or "<!ENTITY" in text:
+            raise DesignFileError("the SVG declares entities; these cut files have none")
+        return ElementTree.fromstring(text.removeprefix('<?xml version="1.0" encoding="UTF-8"?>'))
+    except (ElementTree.ParseError, UnicodeDecodeError) as error:
         raise DesignFileError(f"this is no SVG: {error}") from error
 
 

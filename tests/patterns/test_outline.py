@@ -168,7 +168,7 @@ def test_a_cut_across_a_tail_is_found_far_from_its_corners() -> None:
     end, start = np.array([tail.x0_mm, tail.y0_mm]), np.array([tail.x1_mm, tail.y1_mm])
     middle, ahead = (start + end) / 2, (start - end) / np.hypot(*(start - end))
     across = np.array([-ahead[1], ahead[0]])
-    knife = Polygon([middle - 99 * across, middle + 99 * across, middle - 500 * ahead])
+    knife = Polygon([middle - 9 * across, middle + 9 * across, middle - 500 * ahead])
     short = orient(Polygon(outline.outside).difference(knife))
     faults = check_outline(
         replace(outline, outside=np.array(short.exterior.coords)[:-1]),

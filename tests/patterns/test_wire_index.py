@@ -46,10 +46,15 @@ def test_left_is_positive_and_beyond_the_end_is_overshoot() -> None:
 
 
 def test_beyond_reach_there_is_nothing() -> None:
-    nearest = WIRE.nearest(np.array([[100.0, 0.0], [-5.0, -4.5]]), 1.0)
+    nearest = WIRE.nearest(np.array([[0.0, 0.0], [-5.0, -4.5]]), 1.0)
     assert nearest.distance_mm[0] == inf
     assert np.isnan(nearest.station_mm[0])
     assert nearest.distance_mm[1] == pytest.approx(0.5)
+
+
+def test_a_piece_is_found_from_where_its_box_ends() -> None:
+    just_left = np.array([[-10.4, -5.0], [0.0, -5.4], [5.4, 0.0], [-3.4, 8.0]])
+    assert WIRE.nearest(just_left, 0.41).distance_mm == pytest.approx(0.4)
 
 
 def test_the_same_stretch_of_wire_can_be_left_out() -> None:

@@ -1,0 +1,166 @@
+"""The wire's way through the array, as the operator sees it."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from patterns.circuit import Circuit
+from patterns.layout import Layout
+from patterns.outline import Outline
+from patterns.path import Arc, WirePath
+from patterns.plan import UNITS_PER_MM, BlockKind, StitchPlan
+from patterns.registration import Mark
+from sesame_cad.pictures.canvas import png_bytes
+
+Vectors = NDArray[np.float64]
+
+# Okabe and Ito's colours, told apart by every kind of colour vision.
+FIRST, SECOND, COVER = "#0072B2", "#D55E00", "#009E73"
+NEEDLE, CUT, MARK = "#777777", "#555555", "#000000"
+
+_WIDTH_IN = 9.0
+_ARROW_SHARE, _LARGEST_ARROW = 0.02, 0.25
+"""Length of arrow heads as a share of the width, but at most this share of the smallest loop."""
+
+
+def plan_picture(
+    circuit: Circuit, plan: StitchPlan, outline: Outline, marks: tuple[Mark, ...]
+) -> bytes:
+    """Draw wire, covers, needle points and cut lines; a PNG whose bytes can be made again.
+
+    Loops are numbered in the order in which the wire reaches them.
+    """
+    figure = Figure(figsize=_figure_size(outline, marks), layout="constrained")
+    axes = figure.add_subplot()
+    _draw_cut(axes, outline, marks)
+    _draw_needles(axes, plan)
+    _draw_covers(axes, plan)
+    arrow_mm = _arrow_mm(circuit, outline)
+    _draw_wire(axes, circuit.first_half, FIRST, "wire, first half", arrow_mm)
+    _draw_wire(axes, circuit.second_half, SECOND, "wire, second half", arrow_mm)
+    _draw_numbers(axes, circuit)
+    _draw_ends(axes, circuit)
+    _finish(axes)
+    return png_bytes(figure)
+
+
+def loops_in_order(circuit: Circuit) -> tuple[int, ...]:
+    """Give the loops in the order in which the wire reaches them, first half first."""
+    pieces = (*circuit.first_half.pieces, *circuit.second_half.pieces)
+    reached = (_loop_of(piece, circuit.layout) for piece in pieces if isinstance(piece, Arc))
+    return tuple(dict.fromkeys(reached))
+
+
+def _loop_of(arc: Arc, layout: Layout) -> int:
+    centres = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops])
+    return int(np.argmin(np.hypot(*(centres - (arc.centre_x_mm, arc.centre_y_mm)).T)))
+
+
+def _figure_size(outline: Outline, marks: tuple[Mark, ...]) -> tuple[float, float]:
+    strokes = [stroke for mark in marks for stroke in mark.strokes]
+    width, height = np.ptp(np.concatenate([outline.outside, *strokes]), axis=0)
+    # Room for the axis and for the legend underneath.
+    return _WIDTH_IN, float(np.clip(_WIDTH_IN * height / width, 2.0, 2.0 * _WIDTH_IN)) + 1.0
+
+
+def _arrow_mm(circuit: Circuit, outline: Outline) -> float:
+    loop_mm = min(loop.diameter_mm for loop in circuit.layout.loops)
+    return min(_ARROW_SHARE * float(np.ptp(outline.outside[:, 0])), _LARGEST_ARROW * loop_mm)
+
+
+def _draw_cut(axes: Axes, outline: Outline, marks: tuple[Mark, ...]) -> None:
+    rings = [np.concatenate([ring, ring[:1]]) for ring in (outline.outside, *outline.openings)]
+    axes.add_collection(LineCollection(rings, colors=CUT, linewidths=0.6, label="cut line"))
+    strokes = [stroke for mark in marks for stroke in mark.strokes]
+    if strokes:
+        axes.add_collection(
+            LineCollection(strokes, colors=MARK, linewidths=1.2, label="registration mark")
+        )
+
+
+def _draw_needles(axes: Axes, plan: StitchPlan) -> None:
+    runs = [run.needles for block in plan.blocks if block.kind.is_wire for run in block.runs]
+    if runs:
+        x, y = np.concatenate(runs).T / UNITS_PER_MM
+        axes.scatter(x, y, s=3.0, c=NEEDLE, linewidths=0, label="needle point", zorder=2)
+
+
+def _draw_covers(axes: Axes, plan: StitchPlan) -> None:
+    runs = [
+        run.needles / UNITS_PER_MM
+        for block in plan.blocks
+        if block.kind is BlockKind.COVER
+        for run in block.runs
+    ]
+    if runs:
+        label = "thread cover"
+        lines = LineCollection(runs, colors=COVER, linewidths=1.4, label=label, zorder=4)
+        axes.add_collection(lines)
+
+
+def _draw_wire(axes: Axes, path: WirePath, colour: str, label: str, arrow_mm: float) -> None:
+    points = path.polyline(0.02)
+    axes.plot(points[:, 0], points[:, 1], color=colour, linewidth=1.6, label=label, zorder=5)
+    heads = PolyCollection(list(_arrow_heads(path, arrow_mm)), facecolors=colour, zorder=6)
+    axes.add_collection(heads)
+
+
+def _arrow_heads(path: WirePath, length_mm: float) -> Vectors:
+    """Triangles (n, 3, 2), one in the middle of every piece."""
+    ends = np.cumsum([piece.length_mm for piece in path.pieces])
+    lengths = np.diff(ends, prepend=0)
+    point, along = path.at((ends - lengths / 2)[lengths > 2 * length_mm])
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    back = point - length_mm / 2 * along
+    corners = (point + length_mm / 2 * along, back + 0.4 * length_mm * across)
+    return np.stack([*corners, back - 0.4 * length_mm * across], axis=1)
+
+
+def _draw_numbers(axes: Axes, circuit: Circuit) -> None:
+    loops = circuit.layout.loops
+    size = float(np.clip(60 / np.sqrt(len(loops)), 4, 14))
+    for number, k in enumerate(loops_in_order(circuit), start=1):
+        place = (loops[k].x_mm, loops[k].y_mm)
+        axes.annotate(str(number), place, ha="center", va="center", fontsize=size, color="#333333")
+
+
+def _draw_ends(axes: Axes, circuit: Circuit) -> None:
+    ends = (
+        (circuit.first_half, 0.0, "start", FIRST),
+        (circuit.second_half, circuit.second_half.length_mm, "end", SECOND),
+        (circuit.second_half, 0.0, "half way", CUT),
+    )
+    for path, place_mm, text, colour in ends:
+        point, along = path.at(place_mm)
+        axes.plot(*point[0], "o", color=colour, markersize=5, zorder=7)
+        axes.annotate(
+            text,
+            (float(point[0, 0]), float(point[0, 1])),
+            xytext=_beside(along[0]),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            color=colour,
+            fontsize=9,
+            zorder=8,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
+        )
+
+
+def _beside(along: Vectors) -> tuple[float, float]:
+    """Offset of a label, in points: to the right of the wire."""
+    return float(24 * along[1]), float(-14 * along[0])
+
+
+def _finish(axes: Axes) -> None:
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.margins(0.02)
+    axes.set_xlabel("x, mm, on the stretched fabric")
+    axes.set_ylabel("y, mm")
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.figure.legend(loc="outside lower center", ncols=3, frameon=False, markerscale=3)

@@ -1,0 +1,42 @@
+"""What every family of elements offers to the assembly."""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vectors = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+class Curvature(Enum):
+    """Which second derivatives an element gives.
+
+    ``CONVEX`` leaves out what can be negative, element by element, so that the sum is positive
+    semidefinite: a direction of descent far from a minimum.
+    """
+
+    TRUE = auto()
+    CONVEX = auto()
+
+
+class Elements(Protocol):
+    """A family of m elements, each of them a function of the positions of a vertices."""
+
+    @property
+    def vertices(self) -> Indices:
+        """Vertices (m, a) of each element, all different."""
+        ...
+
+    def energies(self, corners: Vectors) -> Vectors:
+        """Energy (m,) of each element at its corners' positions (m, a, 3)."""
+        ...
+
+    def derivatives(
+        self, corners: Vectors, curvature: Curvature
+    ) -> tuple[Vectors, Vectors, Vectors]:
+        """Energies (m,), gradients (m, 3a) and Hessians (m, 3a, 3a)."""
+        ...
