@@ -51,14 +51,14 @@ def trust_step(eigenvalues: Vectors, slope: Vectors, radius: float) -> Vectors:
     iteration; the hard case (no slope along the lowest direction) is met by moving along it.
     """
     lowest = eigenvalues[0]
-    if lowest > 0:
+    tiny = 1e-14 * max(1.0, float(np.max(np.abs(eigenvalues))))
+    if lowest > tiny:
         free = -slope / eigenvalues
         if np.linalg.norm(free) <= radius:
             return free
     low = max(0.0, -lowest)
     high = low + float(np.linalg.norm(slope)) / radius
     mu = low + 1e-3 * (high - low)
-    tiny = 1e-14 * max(1.0, float(np.max(np.abs(eigenvalues))))
     for _ in range(60):
         shifted = np.maximum(eigenvalues + mu, tiny)
         step = -slope / shifted
