@@ -1,7 +1,8 @@
 """Minimisation with second derivatives in a trust region, for tens to hundreds of unknowns.
 
-Each step minimises the quadratic model exactly within a ball, with the eigenvalues of the Hessian
-at hand, so that it leaves saddle points along their negative directions (Moré and Sorensen, 1983).
+Where the Hessian is positive definite and Newton's step short enough, that step is taken. Elsewhere
+a step minimises the quadratic model exactly within a ball, with the eigenvalues of the Hessian at
+hand, so that it leaves saddle points along their negative directions (Moré and Sorensen, 1983).
 """
 
 from __future__ import annotations
@@ -11,12 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg.lapack import dposv
 
 Vectors = NDArray[np.float64]
 Derivatives = Callable[[Vectors], tuple[float, Vectors, Vectors]]
 """Value, gradient (n,) and Hessian (n, n) at unknowns (n,)."""
 
 _SMALLEST_RADIUS = 1e-14
+_ROUNDING = 1e-14
 
 
 @dataclass(frozen=True)
@@ -27,8 +30,7 @@ class Minimum:
     ----------
     unknowns : array (n,)
     value, gradient_norm : float
-    lowest_eigenvalue : float
-        Of the Hessian there.
+    hessian : array (n, n)
     steps, factorizations : int
         Steps tried, and Hessians factorised.
     converged : bool
@@ -38,10 +40,15 @@ class Minimum:
     unknowns: Vectors
     value: float
     gradient_norm: float
-    lowest_eigenvalue: float
+    hessian: Vectors
     steps: int
     factorizations: int
     converged: bool
+
+    @property
+    def lowest_eigenvalue(self) -> float:
+        """Of the Hessian."""
+        return float(np.linalg.eigvalsh(self.hessian)[0])
 
 
 def trust_step(eigenvalues: Vectors, slope: Vectors, radius: float) -> Vectors:
@@ -51,7 +58,7 @@ def trust_step(eigenvalues: Vectors, slope: Vectors, radius: float) -> Vectors:
     iteration; the hard case (no slope along the lowest direction) is met by moving along it.
     """
     lowest = eigenvalues[0]
-    tiny = 1e-14 * max(1.0, float(np.max(np.abs(eigenvalues))))
+    tiny = _ROUNDING * max(1.0, float(np.max(np.abs(eigenvalues))))
     if lowest > tiny:
         free = -slope / eigenvalues
         if np.linalg.norm(free) <= radius:
@@ -77,9 +84,40 @@ def trust_step(eigenvalues: Vectors, slope: Vectors, radius: float) -> Vectors:
             break
     step = -slope / np.maximum(eigenvalues + high, tiny)
     missing = radius**2 - float(step @ step)
-    if lowest < 0 and missing > 0:
+    if missing < 0:
+        return step * (radius / float(np.linalg.norm(step)))
+    if lowest < 0:
         step[0] += np.copysign(np.sqrt(missing), step[0] if step[0] != 0 else 1.0)
     return step
+
+
+@dataclass(frozen=True)
+class _Model:
+    """The quadratic model around a point, factorised."""
+
+    slope: Vectors
+    hessian: Vectors
+    newton: Vectors | None
+    modes: tuple[Vectors, Vectors] | None
+
+    def step(self, radius: float) -> tuple[Vectors, float]:
+        """Give the best step in a ball, and the change of value that the model foretells."""
+        if self.newton is not None and np.linalg.norm(self.newton) <= radius:
+            return self.newton, float(self.slope @ self.newton) / 2
+        eigenvalues, modes = self.modes or np.linalg.eigh(self.hessian)
+        in_modes = modes.T @ self.slope
+        p = trust_step(eigenvalues, in_modes, radius)
+        return modes @ p, float(in_modes @ p + p @ (eigenvalues * p) / 2)
+
+
+def _model(slope: Vectors, hessian: Vectors) -> tuple[_Model, bool]:
+    """Factorise, and say whether the Hessian has no negative eigenvalue but for rounding."""
+    _, newton, info = dposv(hessian, -slope)
+    if info == 0:
+        return _Model(slope, hessian, newton, None), True
+    eigenvalues, modes = np.linalg.eigh(hessian)
+    floor = -1e-9 * max(1.0, float(eigenvalues[-1]))
+    return _Model(slope, hessian, None, (eigenvalues, modes)), bool(eigenvalues[0] >= floor)
 
 
 def minimise(
@@ -101,36 +139,28 @@ def minimise(
     """
     q = start
     value, slope, hessian = derivatives(q)
-    factorizations = 0
-    steps = 0
+    factorizations = steps = 0
     while True:
-        eigenvalues, modes = np.linalg.eigh(hessian)
+        model, convex = _model(slope, hessian)
         factorizations += 1
         norm = float(np.linalg.norm(slope))
-        floor = -1e-9 * max(1.0, float(eigenvalues[-1]))
-        settled = norm <= tolerance and eigenvalues[0] >= floor
+        settled = norm <= tolerance and convex
         if settled or steps >= most_steps or radius < _SMALLEST_RADIUS:
-            return Minimum(q, value, norm, float(eigenvalues[0]), steps, factorizations, settled)
-        in_modes = modes.T @ slope
-        while True:
+            return Minimum(q, value, norm, hessian, steps, factorizations, settled)
+        accepted = False
+        while not accepted and steps < most_steps and radius >= _SMALLEST_RADIUS:
             steps += 1
-            p = trust_step(eigenvalues, in_modes, radius)
-            predicted = float(in_modes @ p + p @ (eigenvalues * p) / 2)
-            trial = q + modes @ p
-            found = derivatives(trial)
-            # below rounding of the value, the gradient decides
-            noise = 1e-14 * max(1.0, abs(value))
-            smaller = float(np.linalg.norm(found[1])) < norm
+            p, predicted = model.step(radius)
+            found = derivatives(q + p)
             ratio = (found[0] - value) / predicted if predicted < 0 else 0.0
-            accepted = ratio > 0.1 or (abs(predicted) < 10 * noise and smaller)
-            length = float(np.linalg.norm(p))
-            if ratio < 0.25 and not (accepted and abs(predicted) < 10 * noise):
-                radius = 0.25 * length
+            # below rounding of the value, the gradient decides
+            drowned = abs(predicted) < 10 * _ROUNDING * max(1.0, abs(value))
+            smaller = bool(np.linalg.norm(found[1]) < norm)
+            accepted = ratio > 0.1 or (drowned and smaller)
+            if not ratio >= 0.25 and not (accepted and drowned):
+                radius = 0.25 * float(np.linalg.norm(p))
             elif ratio > 0.75:
-                radius = max(radius, 2.5 * length)
+                radius = max(radius, 2.5 * float(np.linalg.norm(p)))
             if accepted:
-                q = trial
+                q = q + p
                 value, slope, hessian = found
-                break
-            if steps >= most_steps or radius < _SMALLEST_RADIUS:
-                break
