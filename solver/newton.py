@@ -83,11 +83,11 @@ def trust_step(eigenvalues: Vectors, slope: Vectors, radius: float) -> Vectors:
         if high - low <= tiny:
             break
     step = -slope / np.maximum(eigenvalues + high, tiny)
-    missing = radius**2 - float(step @ step)
-    if missing < 0:
+    missing = radius**2 - float(step[1:] @ step[1:])
+    if float(step @ step) > radius**2:
         return step * (radius / float(np.linalg.norm(step)))
     if lowest < 0:
-        step[0] += np.copysign(np.sqrt(missing), step[0] if step[0] != 0 else 1.0)
+        step[0] = np.copysign(np.sqrt(missing), step[0] if step[0] != 0 else 1.0)
     return step
 
 
