@@ -18,6 +18,12 @@ FREE_TAIL_MM = 10.0
 LARGEST_OFFSET = 4.0
 """Farthest needle point from its wire, in clearances: past one earlier wire, and no farther."""
 
+SHARES_OF_INTERVAL = (1.0, 0.8, 0.65, 0.5, 0.4)
+"""Spacings that are tried, in couching intervals: closer stitches have room to make way."""
+
+PLAY_STEPS = (0.0, 0.5, -0.5, 1.0, -1.0, 0.25, -0.25, 0.75, -0.75)
+"""How a stitch without a place for the needle is moved along the wire, in units of its play."""
+
 CLEAR_TOLERANCE_MM = 1e-6
 
 LEFT = 1.0
@@ -72,15 +78,40 @@ def couching(
     begin, end = span_mm
     if end - begin < stitching.lock_length_mm:
         raise PatternError(f"there are only {end - begin:.2f} mm of wire to stitch down")
-    steps = int(np.ceil((end - begin) / stitching.couching_interval_mm - CLEAR_TOLERANCE_MM))
-    stations = np.linspace(begin, end, max(steps, 1) + 1)
-    return needle_points(
-        path,
-        with_locks(stations, stitching.lock_length_mm),
-        sides_with_locks(alternate_sides(len(stations), first_side)),
-        laid,
-        clear_mm,
-    )
+    stations, sides = np.empty(0), np.empty(0)
+    for share in SHARES_OF_INTERVAL:
+        spacing = share * stitching.couching_interval_mm
+        steps = max(1, int(np.ceil((end - begin) / spacing - CLEAR_TOLERANCE_MM)))
+        stations = np.linspace(begin, end, steps + 1)
+        sides = alternate_sides(len(stations), first_side)
+        # two neighbours that move apart by this much are one interval apart
+        play = (stitching.couching_interval_mm - (end - begin) / steps) / 2
+        stations = _out_of_the_way(path, stations, sides, laid, clear_mm, play=play)
+        stations = with_locks(stations, stitching.lock_length_mm)
+        sides = sides_with_locks(sides)
+        if not np.any(np.isnan(_offsets(path, stations, sides, laid, clear_mm))):
+            break
+    return needle_points(path, stations, sides, laid, clear_mm)
+
+
+def _out_of_the_way(
+    path: WirePath,
+    stations_mm: Lengths,
+    sides: Sides,
+    laid: LaidWire,
+    clear_mm: float,
+    *,
+    play: float,
+) -> Lengths:
+    """Move stations that find no place for the needle along the wire, by at most ``play``."""
+    stations = stations_mm.copy()
+    for share in PLAY_STEPS:
+        stuck = np.isnan(_offsets(path, stations, sides, laid, clear_mm))
+        stuck[[0, -1]] = False  # where the run begins and ends is given
+        if not stuck.any():
+            break
+        stations[stuck] = stations_mm[stuck] + share * play
+    return stations
 
 
 def alternate_sides(count: int, first_side: float = LEFT) -> Sides:
@@ -111,8 +142,25 @@ def needle_points(
     PatternError
         When a point is still not clear at `LARGEST_OFFSET` clearances; the message says where.
     """
+    offset = _offsets(path, stations_mm, sides, laid, clear_mm)
+    point, outward = _normals(path, stations_mm, sides)
+    stuck = np.flatnonzero(np.isnan(offset))
+    if stuck.size:
+        raise _no_place(point[stuck[0]], clear_mm)
+    return point + offset[:, None] * outward
+
+
+def _normals(path: WirePath, stations_mm: Lengths, sides: Sides) -> tuple[Vectors, Vectors]:
+    """Points of the wire, and unit normals toward the needle's side."""
     point, tangent = path.at(stations_mm)
-    outward = sides[:, None] * np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
+    return point, sides[:, None] * np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
+
+
+def _offsets(
+    path: WirePath, stations_mm: Lengths, sides: Sides, laid: LaidWire, clear_mm: float
+) -> Lengths:
+    """Smallest clear offsets (n,) along the normals; NaN where none is small enough."""
+    point, outward = _normals(path, stations_mm, sides)
     offset = np.full(len(point), clear_mm)
     moving = np.arange(len(point))
     while moving.size:
@@ -121,10 +169,9 @@ def needle_points(
         blocked = lacking > CLEAR_TOLERANCE_MM
         moving = moving[blocked]
         offset[moving] += lacking[blocked]
-        if np.any(offset[moving] > LARGEST_OFFSET * clear_mm):
-            worst = moving[np.argmax(offset[moving])]
-            raise _no_place(point[worst], clear_mm)
-    return point + offset[:, None] * outward
+        offset[moving[offset[moving] > LARGEST_OFFSET * clear_mm]] = np.nan
+        moving = moving[~np.isnan(offset[moving])]
+    return offset
 
 
 def _no_place(point_mm: Vectors, clear_mm: float) -> PatternError:

@@ -11,6 +11,8 @@ from patterns.locks import POINTS_PER_LOCK, sides_with_locks, with_locks
 from patterns.machine import Machine
 from patterns.path import Arc, Line, WirePath
 from patterns.plan import UNITS_PER_MM, quantise
+from patterns.rules import check_plan
+from patterns.stitch_plan import stitch_plan
 from patterns.stitching import Stitching
 from patterns.tangent_switch import grid_circuit
 
@@ -63,6 +65,12 @@ def test_distance_to_laid_wire_is_that_of_a_fine_polyline(points, radius, start,
     assert np.all(np.isinf(near) == (near > 5.0))
     assert np.all(np.isinf(near[expected > 5.001]))
     assert np.all(np.isfinite(near[expected < 4.999]))
+
+
+def test_wire_beyond_the_reach_is_infinitely_far():
+    wire = laid_wire(WirePath((Line(0, 0, 10, 0),)))
+    distance = wire.distance_mm(np.array([[5, 4.99], [5, 5.01], [5, 7]]), 5.0)
+    assert distance.tolist() == [pytest.approx(4.99), np.inf, np.inf]
 
 
 @grids
@@ -150,3 +158,11 @@ def test_locks_are_off_the_wire_and_as_long_as_asked(rows, columns, diameter):
         assert lock[0] == pytest.approx(lock[2])
         assert np.hypot(*(lock[1] - lock[0])) == pytest.approx(0.7, rel=0.1)
         assert len(set(sides_of(circuit.second_half, lock).tolist())) == 1
+
+
+@pytest.mark.parametrize(("loop_mm", "wire_mm"), [(10, 0.2), (12, 0.2), (15, 0.3), (15, 0.25)])
+def test_small_loops_find_room_by_closer_stitches(loop_mm, wire_mm):
+    """Where a stitch finds no place beyond an earlier wire, it moves along its own."""
+    circuit = grid_circuit(3, 3, loop_mm, 40.0)
+    plan = stitch_plan(circuit, Stitching(), MACHINE, wire_mm, ())
+    assert check_plan(circuit, plan, MACHINE, Stitching(), wire_mm) == ()

@@ -97,12 +97,15 @@ def test_one_cover_a_crossing_from_the_end_of_the_first_half_back():
     assert middle == sorted(middle, reverse=True)
 
 
-def test_a_span_ends_with_the_half():
+@pytest.mark.parametrize(("start", "end"), [((0, 0), (20, 0)), ((20, 0), (0, 0))])
+def test_a_span_ends_with_the_half(start, end):
     circuit = Circuit(
         Layout((), ()),
         (),
-        WirePath((Line(0, 0, 20, 0),)),
+        WirePath((Line(*start, *end),)),
         WirePath((Line(18, -0.2, 40, 0.9),)),
-        (Crossing(CrossingKind.CONTACT, 19, 0, 19, 1),),
+        (Crossing(CrossingKind.CONTACT, 19, 0, abs(19 - start[0]), 1),),
     )
-    assert cover_spans_mm(circuit, WIRE, STITCHING)[0, 1] == 20
+    span = cover_spans_mm(circuit, WIRE, STITCHING)[0]
+    assert (span[0] == 0) == (start[0] == 20)
+    assert (span[1] == 20) == (end[0] == 20)

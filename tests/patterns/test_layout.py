@@ -19,8 +19,8 @@ def test_loops_with_a_gap_do_not_touch():
 
 
 def test_overlap_names_the_loops_and_their_distance():
-    with pytest.raises(PatternError, match=r"loops 0 and 2 overlap: .* 9\.5 mm apart"):
-        tangent_layout((Loop(0, 0, 10), Loop(40, 0, 10), Loop(9.5, 0, 10)))
+    with pytest.raises(PatternError, match=r"loops 1 and 3 overlap: .* 9\.5 mm apart"):
+        tangent_layout((Loop(-10, 0, 10), Loop(0, 0, 10), Loop(40, 0, 10), Loop(9.5, 0, 10)))
 
 
 def test_a_loop_inside_another_overlaps_it():

@@ -113,6 +113,17 @@ def test_the_machine_stops_before_it_leaves_the_wire():
     assert order[5:] == ["stop", "jump", "jump", "jump", "stitch", "stitch", "end"]
 
 
+def test_from_wire_to_wire_the_operator_lets_go_first():
+    order = commands_of(plan_of(BlockKind.WIRE_FIRST, BlockKind.WIRE_SECOND))
+    assert order[5:] == ["stop", "jump", "jump", "jump", "stitch", "stitch", "end"]
+
+
+def test_runs_stay_apart_on_a_machine_that_needs_no_jumps_to_trim():
+    block = Block(BlockKind.COVER, "", (run((5, 0)), run((9, 0), approach=(5, 0))))
+    machine = Machine(300, 300, 0.75, jumps_per_trim=0)
+    assert commands_of(StitchPlan((block,)), machine) == ["stitch", "jump", "stitch", "end"]
+
+
 def test_between_thread_blocks_the_machine_stops_where_it_is():
     order = commands_of(plan_of(BlockKind.MARKS, BlockKind.COVER))
     assert order[5:] == ["stop", "jump", "jump", "jump", "stitch", "stitch", "end"]
@@ -142,5 +153,5 @@ def test_a_stop_that_ends_no_block_is_refused():
     records = plan_records(plan_of(BlockKind.MARKS, BlockKind.COVER), MACHINE)
     command = records.command.copy()
     command[command == Command.JUMP] = Command.STOP
-    with pytest.raises(PatternError, match="in 2 of"):
-        plan_from_records(type(records)(command, records.xy), [BlockKind.COVER] * 2, ["", ""])
+    with pytest.raises(PatternError, match="in 2 of 8"):
+        plan_from_records(type(records)(command, records.xy), [BlockKind.COVER] * 8, [""] * 8)
