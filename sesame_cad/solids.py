@@ -8,6 +8,7 @@ import numpy as np
 import trimesh
 from manifold3d import Error, Manifold, Mesh64, OpType
 from numpy.typing import NDArray
+from trimesh.graph import connected_component_labels
 
 from sesame_cad.errors import InputError
 
@@ -26,12 +27,23 @@ MESH_TOLERANCE_MM = 1e-3
 WELD_GRIDS_MM = tuple(2.0**-k for k in range(20, 11, -2))
 """Coordinates are rounded to the finest of these that leaves no two surfaces touching."""
 
+SPECK_SHARE = 1e-4
+"""Bodies with less than this share of the largest one's volume are left out."""
+
 RIM_SHARE = 0.6
 """The fabric's edge is at most this share of the wire, so that it ends well inside the tube."""
 
 
 def boundary_segments(boundary: Boundary, tolerance_mm: float = 0.05) -> int:
-    """Count the chords, a multiple of 4, that keep within ``tolerance_mm`` of a closed boundary."""
+    """Count the chords, a multiple of 4, that keep within ``tolerance_mm`` of a closed boundary.
+
+    Raises
+    ------
+    InputError
+        When the tolerance is not positive.
+    """
+    if not tolerance_mm > 0:
+        raise InputError(f"{tolerance_mm:g} mm is no tolerance: give more than 0")
     segments = 16
     while _chord_error_mm(boundary, segments) > tolerance_mm:
         segments += 4
@@ -222,8 +234,19 @@ def _trimesh(solid: Manifold) -> trimesh.Trimesh:
     for grid_mm in WELD_GRIDS_MM:
         points, faces = _weld(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), grid_mm)
         if _is_closed(faces):
-            return trimesh.Trimesh(points, faces, process=False)
+            return _without_specks(points, faces)
     raise InputError("the solid touches itself along an edge: change the segments or the sides")
+
+
+def _without_specks(points: Vectors, faces: Triangles) -> trimesh.Trimesh:
+    """Keep the bodies; crumbs and hollows where wires all but coincide have no size to speak of."""
+    mesh = trimesh.Trimesh(points, faces, process=False)
+    body = connected_component_labels(mesh.face_adjacency, node_count=len(faces))
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    volume = np.bincount(body, weights=np.sum(a * np.cross(b, c), axis=1)) / 6
+    kept = faces[(volume > SPECK_SHARE * volume.max())[body]]
+    used = np.unique(kept)
+    return trimesh.Trimesh(points[used], np.searchsorted(used, kept), process=False)
 
 
 def _is_closed(faces: Triangles) -> bool:

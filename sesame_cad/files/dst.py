@@ -185,8 +185,9 @@ def _header_bytes(header: DstHeader) -> bytes:
 
 
 def _read_header(data: bytes) -> DstHeader:
-    text, mark, _ = data.decode("latin-1").partition("\x1a")
-    if not mark or _FIELD.sub("", text):
+    # Without the mark the padding stays, which is no field.
+    text, _, _ = data.decode("latin-1").partition("\x1a")
+    if _FIELD.sub("", text):
         raise DesignFileError("the DST header is not a list of fields that ends with the byte 1A")
     found = _FIELD.findall(text)
     values = dict(found)

@@ -73,7 +73,7 @@ def read_embroidery(data: bytes, file_format: EmbroideryFormat) -> Records:
     Raises
     ------
     DesignFileError
-        When the data breaks off or hold a record of an unknown kind.
+        When the data breaks off or holds a record of an unknown kind.
     """
     moves = _exp_moves(data) if file_format == "exp" else _u01_moves(data)
     found = [*moves]
@@ -97,6 +97,8 @@ def _exp_moves(data: bytes) -> Iterator[tuple[Command, int, int]]:
         moved = next(pairs, None)
         if y not in kinds or moved is None:
             raise DesignFileError(f"the EXP file holds an unknown or broken command {y:02X}")
+        if kinds[y] is Command.STOP and any(moved):
+            raise DesignFileError("the EXP file stops and moves at once")
         yield kinds[y], _signed(moved[0]), _signed(moved[1])
 
 
@@ -113,4 +115,6 @@ def _u01_moves(data: bytes) -> Iterator[tuple[Command, int, int]]:
     for kind, y, x in np.frombuffer(body[:-3], dtype=np.uint8).reshape(-1, 3).tolist():
         if kind & 0x1F not in kinds or not kind & 0x80:
             raise DesignFileError(f"the U01 file holds an unknown record {kind:02X}")
+        if kinds[kind & 0x1F] is Command.STOP and (x or y):
+            raise DesignFileError("the U01 file stops and moves at once")
         yield kinds[kind & 0x1F], -x if kind & 0x20 else x, -y if kind & 0x40 else y

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +12,18 @@ from numpy.typing import NDArray
 from sesame_cad.solids import Surface, tube_mesh
 
 Vectors = NDArray[np.float64]
+Floats = NDArray[np.float32]
 Indices = NDArray[np.int64]
+AnyFloat = TypeVar("AnyFloat", np.float32, np.float64)
 
-SAMPLES_PER_PIXEL = 3
-"""Along each axis; the picture is averaged down at the end, which smooths its edges."""
+FEW_LOOPS, FEW_SAMPLES, MANY_SAMPLES = 4, 2, 3
+"""Samples along each side of a pixel: averaged, they smooth the edges. Few loops are drawn large,
+and their wires need less of it."""
 
 _LIGHT = np.array([-0.35, -0.30, 0.89])
 _AMBIENT, _GLOSS = 0.42, 0.18
 _RINGS, _SPOKES, _SIDES = 33, 193, 12
+_BAND = 8
 
 
 @dataclass(frozen=True)
@@ -52,12 +58,12 @@ class Patch:
 
 @dataclass(frozen=True)
 class _Sprite:
-    """Samples of one loop: row (up), column, depth in mm, colour."""
+    """Pixels of one loop: row (up) and column from its origin, depth in mm, colour."""
 
     row: Indices
     column: Indices
-    depth: Vectors
-    colour: Vectors
+    depth: Floats
+    colour: Floats
 
 
 def fabric_patch(surface: Surface, colour: Vectors) -> Patch:
@@ -113,8 +119,9 @@ def render(
     array, shape (rows, columns, 3)
         Colours in 0..1 on white, top row first.
     """
-    step_mm = mm_per_pixel / SAMPLES_PER_PIXEL
-    rows, columns = size[0] * SAMPLES_PER_PIXEL, size[1] * SAMPLES_PER_PIXEL
+    samples = FEW_SAMPLES if len(centres_mm) <= FEW_LOOPS else MANY_SAMPLES
+    step_mm = mm_per_pixel / samples
+    rows, columns = size[0] * samples, size[1] * samples
     sprite = _sprite(patches, view, step_mm)
     depth = np.full(rows * columns, -np.inf)
     image = np.ones((rows * columns, 3), dtype=np.float32)
@@ -126,49 +133,58 @@ def render(
         front = nearer > depth[place]
         depth[place[front]] = nearer[front]
         image[place[front]] = sprite.colour[inside][front]
-    fine = image.reshape(size[0], SAMPLES_PER_PIXEL, size[1], SAMPLES_PER_PIXEL, 3)
+    fine = image.reshape(size[0], samples, size[1], samples, 3)
     return fine.mean(axis=(1, 3), dtype=np.float64)[::-1]
 
 
 def _sprite(patches: list[Patch], view: View, step_mm: float) -> _Sprite:
-    """Sample the patches densely and keep the nearest sample of every place."""
-    parts = [_samples(patch, view, step_mm) for patch in patches]
-    place = np.concatenate([np.rint(seen[:, :2] / step_mm).astype(np.int64) for seen, _ in parts])
-    depth = np.concatenate([seen[:, 2] for seen, _ in parts])
-    colour = np.concatenate([colour for _, colour in parts])
-    low = place.min(axis=0)
-    columns = int(np.ptp(place[:, 0])) + 1
-    key = (place[:, 1] - low[1]) * columns + place[:, 0] - low[0]
-    nearest = np.full(int(key.max()) + 1, -np.inf)
-    np.maximum.at(nearest, key, depth)
-    kept = np.flatnonzero(depth == nearest[key])
-    return _Sprite(place[kept, 1], place[kept, 0], depth[kept], colour[kept])
+    """Sample the patches densely and keep the nearest sample of every pixel."""
+    low, high = projected_bounds(patches, np.zeros((1, 2)), view)
+    first = np.rint(low / step_mm).astype(np.int64) - 1
+    columns, rows = np.rint(high / step_mm).astype(np.int64) - first + 2
+    depth = np.full(rows * columns, -np.inf, dtype=np.float32)
+    colour = np.zeros((rows * columns, 3), dtype=np.float32)
+    for patch in patches:
+        for sample in _samples(patch, view, step_mm):
+            column, row = (np.rint(sample[:, k] / step_mm).astype(np.int64) for k in (0, 1))
+            pixel = (row - first[1]) * columns + column - first[0]
+            np.maximum.at(depth, pixel, sample[:, 2])
+            front = np.flatnonzero(sample[:, 2] == depth[pixel])
+            normal = _unit(sample[front, 3:])
+            colour[pixel[front]] = _shade(normal, view.axes() @ _LIGHT, patch.colour)
+    filled = np.flatnonzero(np.isfinite(depth))
+    row, column = np.divmod(filled, columns)
+    return _Sprite(row + first[1], column + first[0], depth[filled], colour[filled])
 
 
-def _samples(patch: Patch, view: View, step_mm: float) -> tuple[Vectors, Vectors]:
-    """Seen coordinates (n, 3) and colours (n, 3) of samples less than one step apart."""
+def _samples(patch: Patch, view: View, step_mm: float) -> Iterator[Floats]:
+    """Seen coordinates and normals (n, 6) of samples less than one step apart, band by band."""
     axes = view.axes()
     both = np.concatenate([patch.points @ axes.T, patch.normals @ axes.T], axis=2)
-    fine = _refined(_refined(both, step_mm).swapaxes(0, 1), step_mm).reshape(-1, 6)
-    return fine[:, :3], _shade(_unit(fine[:, 3:]), axes @ _LIGHT, patch.colour)
+    both = both.astype(np.float32)
+    # Bands, because the inner ones need fewer samples around, and to keep the memory small.
+    for start in range(0, len(both) - 1, _BAND):
+        band = both[start : start + _BAND + 1]
+        yield _refined(_refined(band, step_mm).swapaxes(0, 1), step_mm).reshape(-1, 6)
 
 
-def _refined(grid: Vectors, step_mm: float) -> Vectors:
+def _refined(grid: Floats, step_mm: float) -> Floats:
     """Interpolate along the first axis until steps as seen are shorter than asked for."""
     longest = np.hypot(*np.moveaxis(np.diff(grid[..., :2], axis=0), -1, 0)).max()
-    pieces = max(1, int(np.ceil(1.3 * longest / step_mm)))
-    share = np.arange(pieces)[None, :, None, None] / pieces
+    pieces = max(1, int(np.ceil(1.2 * longest / step_mm)))
+    share = (np.arange(pieces, dtype=np.float32) / pieces)[None, :, None, None]
     between = grid[:-1, None] * (1 - share) + grid[1:, None] * share
-    return np.concatenate([between.reshape(-1, *grid.shape[1:]), grid[-1:]])
+    return np.concatenate([between.reshape(-1, *grid.shape[1:]), grid[-1:]], dtype=np.float32)
 
 
-def _shade(normal: Vectors, light: Vectors, colour: Vectors) -> Vectors:
+def _shade(normal: Floats, light: Vectors, colour: Vectors) -> Floats:
     """Light matt colour and a soft gloss; both sides of the fabric are lit alike."""
     facing = normal * np.where(normal[:, 2:] < 0, -1.0, 1.0)
     matt = np.clip(facing @ light, 0, 1)[:, None]
     halfway = _unit(light + np.array([0.0, 0.0, 1.0]))
     gloss = _GLOSS * np.clip(facing @ halfway, 0, 1)[:, None] ** 24
-    return np.clip(colour * (_AMBIENT + (1 - _AMBIENT) * matt) + gloss, 0, 1)
+    shaded = np.clip(colour * (_AMBIENT + (1 - _AMBIENT) * matt) + gloss, 0, 1)
+    return shaded.astype(np.float32)
 
 
 def _closed(grid: Vectors) -> Vectors:
@@ -176,5 +192,5 @@ def _closed(grid: Vectors) -> Vectors:
     return np.pad(grid, ((0, 1), (0, 1), (0, 0)), mode="wrap")
 
 
-def _unit(vectors: Vectors) -> Vectors:
+def _unit(vectors: NDArray[AnyFloat]) -> NDArray[AnyFloat]:
     return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)

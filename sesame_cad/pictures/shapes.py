@@ -28,6 +28,7 @@ FABRIC, WIRE, INK = "#8DB4D6", "#E8651F", "#333333"
 
 _WIDTH_IN, _TITLE_IN, _MARGIN_IN = 13.0, 0.4, 0.1
 _BAR_LENGTHS_MM = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+_LARGEST_SHARE_IN = 6.5
 _LARGEST_ASPECT = 2.0
 _AIR = 1.03
 """The picture is this much larger than what it shows."""
@@ -65,18 +66,19 @@ def shapes_picture(views: Sequence[ShapeView]) -> bytes:
         for own, shape in zip(patches, views, strict=True)
     ]
     extent = _AIR * np.max([high - low for low, high in bounds], axis=0)
-    width_in = _WIDTH_IN / len(views) - 2 * _MARGIN_IN
+    share_in = min(_WIDTH_IN / len(views), _LARGEST_SHARE_IN)
+    width_in = share_in - 2 * _MARGIN_IN
     mm_per_inch = max(extent[0] / width_in, extent[1] / (_LARGEST_ASPECT * width_in))
     height_in = extent[1] / mm_per_inch + 2 * _MARGIN_IN
     size = (round(height_in * DOTS_PER_INCH), round(width_in * DOTS_PER_INCH))
     mm_per_pixel = mm_per_inch / DOTS_PER_INCH
-    figure = Figure(figsize=(_WIDTH_IN, size[0] / DOTS_PER_INCH + _TITLE_IN))
+    figure = Figure(figsize=(share_in * len(views), size[0] / DOTS_PER_INCH + _TITLE_IN))
     for k, (shape, own, (low, high)) in enumerate(zip(views, patches, bounds, strict=True)):
         corner = (low + high) / 2 - mm_per_pixel * np.array([size[1], size[0]]) / 2
         image = render(
             own, shape.centres_mm, view, corner_mm=corner, mm_per_pixel=mm_per_pixel, size=size
         )
-        axes = _axes(figure, size, _MARGIN_IN + k * (width_in + 2 * _MARGIN_IN))
+        axes = _axes(figure, size, _MARGIN_IN + k * share_in)
         axes.imshow(image, interpolation="none", aspect="auto")
         axes.set_title(shape.title, fontsize=13, color=INK)
     _scale_bar(figure.axes[0], size, mm_per_pixel)

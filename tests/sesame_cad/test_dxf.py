@@ -53,10 +53,10 @@ def test_the_comparison_can_fail():
         assert not np.allclose(found, wrong, atol=1e-3)
 
 
-def test_bytes_reproduce_and_the_option_is_put_back():
-    before = ezdxf.options.write_fixed_meta_data_for_testing
+def test_bytes_reproduce_and_the_option_is_put_back(monkeypatch):
+    monkeypatch.setattr(ezdxf.options, "write_fixed_meta_data_for_testing", False)
     assert outline_dxf(OUTLINE, MARKS) == outline_dxf(OUTLINE, MARKS)
-    assert ezdxf.options.write_fixed_meta_data_for_testing is before
+    assert ezdxf.options.write_fixed_meta_data_for_testing is False
 
 
 RINGS = st.lists(

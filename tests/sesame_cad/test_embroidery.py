@@ -67,13 +67,16 @@ def test_moves_and_extents_out_of_range_are_refused(kind):
 def test_broken_files_are_refused(kind):
     whole = write_embroidery(records_of([(Command.STITCH, 5, 5), (Command.STOP, 0, 0)]), kind)
     with pytest.raises(DesignFileError, match="breaks off"):
-        read_embroidery(whole[:-1], kind)
+        read_embroidery(whole[:-1] if kind == "exp" else whole[:-3], kind)
     unknown = {
-        "exp": whole[:-2] + b"\x80\x77\x00\x00",
+        "exp": whole[:-4] + b"\x80\x77\x00\x00",
         "u01": whole[:-3] + b"\x9f\x00\x00\xf8\x00\x00",
     }
     with pytest.raises(DesignFileError, match="unknown"):
         read_embroidery(unknown[kind], kind)
+    moving = {"exp": b"\x80\x01\x05\x00", "u01": b"\x88\x05\x00\xf8\x00\x00"}
+    with pytest.raises(DesignFileError, match="stops and moves"):
+        read_embroidery(whole[: {"exp": -4, "u01": -6}[kind]] + moving[kind], kind)
 
 
 @pytest.mark.parametrize("kind", FORMATS)

@@ -21,9 +21,9 @@ def pixels(data):
     return np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(int)
 
 
-def shows(picture, colour):
+def count(picture, colour):
     wanted = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
-    return bool(np.any(np.abs(picture - wanted).max(axis=2) < 30))
+    return int(np.sum(np.abs(picture - wanted).max(axis=2) < 30))
 
 
 def two_loops():
@@ -53,13 +53,15 @@ PLAN = StitchPlan(
 def test_the_plan_shows_both_halves_and_the_covers_and_reproduces():
     data = plan_picture(two_loops(), PLAN, Outline(CORNERS, ()), MARKS)
     picture = pixels(data)
-    assert all(shows(picture, colour) for colour in (FIRST, SECOND, COVER))
+    # A dot or an arrow head would be less.
+    assert min(count(picture, FIRST), count(picture, SECOND)) > 1000
+    assert count(picture, COVER) > 0
     assert data == plan_picture(two_loops(), PLAN, Outline(CORNERS, ()), MARKS)
 
 
 def test_without_a_cover_none_is_shown():
     bare = StitchPlan(PLAN.blocks[::2])
-    assert not shows(pixels(plan_picture(two_loops(), bare, Outline(CORNERS, ()), ())), COVER)
+    assert count(pixels(plan_picture(two_loops(), bare, Outline(CORNERS, ()), ())), COVER) == 0
 
 
 def test_loops_are_numbered_as_the_wire_reaches_them():
@@ -110,7 +112,7 @@ def test_a_disc_from_above_covers_its_area(red_disc):
 
 def test_the_nearer_loop_hides_the_farther_one(red_disc):
     """Seen from the side of -y, the loop at -y is drawn over the one behind it, in either order."""
-    upright = fabric_patch(lambda r, a: saddle(0)(r, a)[:, [0, 2, 1]], red_disc.colour)
+    upright = fabric_patch(lambda r, a: saddle(4)(r, a)[:, [0, 2, 1]], red_disc.colour)
     centres = np.array([(0.0, -5.0), (8.0, 5.0)])
     options = {"corner_mm": np.array([-12.0, -12.0]), "mm_per_pixel": 0.2, "size": (120, 180)}
     pictures = [render([upright], c, View(-90, 0), **options) for c in (centres, centres[::-1])]

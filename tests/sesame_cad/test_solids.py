@@ -30,7 +30,7 @@ def square(count, pitch_mm):
     return np.stack(np.meshgrid(place, place), axis=-1).reshape(-1, 2)
 
 
-def cell(surface, wire_mm, thickness_mm, segments=None, rings=6, sides=12):
+def cell(surface, wire_mm, thickness_mm, *, segments=None, rings=6, sides=12):
     return cell_solid(
         surface,
         edge(surface),
@@ -107,6 +107,11 @@ def test_segments_keep_the_tolerance_and_are_no_more_than_needed(tolerance_mm):
     assert segments % 4 == 0
     assert 25 * (1 - np.cos(np.pi / segments)) <= tolerance_mm
     assert 25 * (1 - np.cos(np.pi / (segments - 4))) > tolerance_mm
+
+
+def test_a_tolerance_of_nothing_is_refused():
+    with pytest.raises(InputError, match="no tolerance"):
+        boundary_segments(edge(saddle(25, 0)), 0.0)
 
 
 def test_impossible_cells_are_refused_with_every_fault():

@@ -48,11 +48,9 @@ def test_an_independent_reader_finds_the_lines_in_millimetres():
     lines = library_lines(outline_svg(OUTLINE, (CROSS,), "plate"))
     assert is_same_line(lines["CUT"][0], closed(SQUARE))
     assert [is_same_line(line, closed(HOLE)) for line in lines["HOLE"]] == [True, True]
-    assert [
-        is_same_line(line, s * (1, -1))
-        for line, s in zip(lines["MARK"], CROSS.strokes, strict=True)
-    ]
-    np.testing.assert_allclose(np.ptp(lines["REFERENCE"][0], axis=0), (100, 0), atol=1e-6)
+    for line, stroke in zip(lines["MARK"], CROSS.strokes, strict=True):
+        assert is_same_line(line, stroke * (1, -1))
+    np.testing.assert_allclose(np.ptp(lines["REFERENCE"][0], axis=0), (100, 0), atol=1e-3)
 
 
 @pytest.mark.parametrize("wrong", [SQUARE * 1.001, SQUARE * (1, -1), SQUARE[::-1], SQUARE[:3]])
