@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from math import hypot
@@ -18,6 +19,7 @@ from patterns.registration import Mark, registration_marks
 from patterns.rules import check_plan
 from patterns.stitch_plan import stitch_plan
 from patterns.tangent_switch import grid_circuit
+from patterns.violation import Violation
 from sesame_cad.errors import InputError
 from sesame_cad.specification import Specification
 from sesame_cad.state import State, solve_state
@@ -118,8 +120,17 @@ def _pattern(spec: Specification) -> Pattern:
     plan = stitch_plan(circuit, stitching, machine, wire_mm, marks)
     violations = check_plan(circuit, plan, machine, stitching, wire_mm)
     if violations:
-        raise InputError(*(f"{spec.name}: {violation}" for violation in violations))
+        raise InputError(*_first_of_each_rule(spec, violations))
     return Pattern(circuit, outline, marks, plan)
+
+
+def _first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) -> Iterator[str]:
+    """Say each broken rule once: a setting that breaks it does so all over the array."""
+    counts = Counter(violation.rule for violation in violations)
+    firsts = {violation.rule: violation for violation in reversed(violations)}
+    for rule, count in counts.items():
+        more = f", and in {count - 1} more places" if count > 1 else ""
+        yield f"{spec.name}: {firsts[rule]}{more}"
 
 
 def covered_crossings(spec: Specification, laid: Pattern) -> tuple[Crossing, ...]:

@@ -6,9 +6,11 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from math import sqrt
 
+from patterns.sewn_run import APPROACH_MM
 from sesame_cad.specification.fault import Fault
 from sesame_cad.specification.layout import LayoutSection
 from sesame_cad.specification.machine import MachineSection
+from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.toml_text import number_text
@@ -26,6 +28,7 @@ class Together:
     layout: LayoutSection
     stitching: StitchingSection
     machine: MachineSection
+    outline: OutlineSection
     output: OutputSection
 
 
@@ -51,17 +54,21 @@ def inconsistencies(
 
 
 def needed_hoop_mm(
-    wire: WireSection, layout: LayoutSection, stitching: StitchingSection
+    wire: WireSection,
+    layout: LayoutSection,
+    stitching: StitchingSection,
+    outline: OutlineSection,
 ) -> tuple[float, float]:
-    """Give the width and height that loops, tails and registration marks take in the hoop.
+    """Give the width and height that loops, tails, rim and registration marks take in the hoop.
 
     The array is centred in the hoop. The tails leave the bottom left loop at its lower left
     (225 degrees) along the tangent there, one up and to the left, one down and to the right;
-    the marks stand in the corners around everything.
+    the rim of fabric goes around the wire, and the marks stand in the corners around everything.
     """
     loop, along = layout.loop_diameter_mm, stitching.tail_length_mm / sqrt(2)
     inset = loop / 2 * (1 - 1 / sqrt(2))
-    around = wire.diameter_mm / 2 + stitching.mark_gap_mm + stitching.mark_size_mm
+    rim = wire.diameter_mm / 2 + outline.margin_mm
+    around = rim + stitching.mark_gap_mm + stitching.mark_size_mm + APPROACH_MM
 
     def whole(loops: int) -> float:
         half = loops * loop / 2
@@ -93,7 +100,9 @@ def _sharp_bend(sections: Together) -> Iterator[Fault]:
 
 def _small_hoop(sections: Together) -> Iterator[Fault]:
     machine = sections.machine
-    width, height = needed_hoop_mm(sections.wire, sections.layout, sections.stitching)
+    width, height = needed_hoop_mm(
+        sections.wire, sections.layout, sections.stitching, sections.outline
+    )
     for keys, needed, available, loops in (
         (_WIDTH, width, machine.hoop_width_mm, "layout.columns"),
         (_HEIGHT, height, machine.hoop_height_mm, "layout.rows"),
@@ -135,6 +144,7 @@ _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str
             ("stitching", "tail_length_mm"),
             ("stitching", "mark_size_mm"),
             ("stitching", "mark_gap_mm"),
+            ("outline", "margin_mm"),
         ),
     ),
     (_thick_preview, (_DIAMETER, _PREVIEW)),

@@ -15,6 +15,7 @@ from sesame_cad.specification.fault import Fault, shown_value
 from sesame_cad.specification.layout import LayoutSection
 from sesame_cad.specification.machine import MachineSection
 from sesame_cad.specification.nearest import nearest_key
+from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.section import Section
 from sesame_cad.specification.specification import Specification, sections
@@ -102,6 +103,7 @@ def _faults_between(
         sound("layout", LayoutSection),
         sound("stitching", StitchingSection),
         sound("machine", MachineSection),
+        sound("outline", OutlineSection),
         sound("output", OutputSection),
     )
     return inconsistencies(together, found)

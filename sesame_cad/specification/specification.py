@@ -54,7 +54,9 @@ class Specification(Section):
 
     @model_validator(mode="after")
     def _goes_together(self) -> Specification:
-        together = Together(self.wire, self.layout, self.stitching, self.machine, self.output)
+        together = Together(
+            self.wire, self.layout, self.stitching, self.machine, self.outline, self.output
+        )
         faults = inconsistencies(together)
         if faults:
             raise ValueError("\n".join(map(str, faults)))

@@ -147,17 +147,17 @@ WRONG_KEYS_AND_PAIRS = [
     (
         "layout",
         "columns = 9",
-        "machine.hoop_width_mm = 406: must be at least 520.4 for the loops, …",
+        "machine.hoop_width_mm = 406: must be at least 526.4 for the loops, …",
     ),
     (
         "layout",
         "rows = 6",
-        "machine.hoop_height_mm = 330: must be at least 370.4 for the loops, …",
+        "machine.hoop_height_mm = 330: must be at least 376.4 for the loops, …",
     ),
     (
         "stitching",
         "tail_length_mm = 100",
-        "machine.hoop_height_mm = 330: must be at least 355.3 for …",
+        "machine.hoop_height_mm = 330: must be at least 361.3 for …",
     ),
 ]
 

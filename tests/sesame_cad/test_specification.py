@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from patterns.machine import Machine
 from patterns.path import Line
+from patterns.sewn_run import APPROACH_MM
 from patterns.stitching import ROUNDING_MM, Stitching
 from patterns.tangent_switch import grid_circuit
 from sesame_cad.specification import (
@@ -60,6 +61,7 @@ def specifications(draw):
             if field.annotation is float and key not in BOUND_TO_OTHERS
         }
     data["wire"]["diameter_mm"] = draw(st.floats(0.2, 0.5))
+    data["outline"]["margin_mm"] = draw(st.floats(0.1, 5))  # a wider rim wants a larger hoop
     data["layout"] = LARGE["layout"]
     data["machine"]["name"] = draw(st.text(min_size=1, max_size=80).filter(str.isprintable))
     data["output"]["formats"] = draw(st.lists(st.sampled_from(["dst", "exp", "u01"])))
@@ -218,8 +220,15 @@ def test_the_hoop_is_as_large_as_loops_tails_and_marks(rows, columns, loop, tail
         "machine": {"hoop_width_mm": 5000, "hoop_height_mm": 5000},
     }
     specification = specification_from(parts, "x")
-    needed = needed_hoop_mm(specification.wire, specification.layout, specification.stitching)
-    around = wire / 2 + specification.stitching.mark_gap_mm + specification.stitching.mark_size_mm
+    needed = needed_hoop_mm(
+        specification.wire,
+        specification.layout,
+        specification.stitching,
+        specification.outline,
+    )
+    rim = wire / 2 + specification.outline.margin_mm
+    around = rim + specification.stitching.mark_gap_mm + specification.stitching.mark_size_mm
+    around += APPROACH_MM
     assert needed == pytest.approx([2 * (half + around) for half in reach], abs=1e-3)
     assert isinstance(circuit.first_half.pieces[0], Line)
 
