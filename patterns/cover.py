@@ -1,4 +1,4 @@
-"""Thread satin on the first half of the wire, where the second half comes near it."""
+"""Thread satin on laid wire, where the wire of the next stage comes near it."""
 
 from __future__ import annotations
 
@@ -19,58 +19,65 @@ Lengths = NDArray[np.float64]
 
 def covers(
     circuit: Circuit,
+    stage: int,
     laid: LaidWire,
+    *,
     clear_mm: float,
     wire_diameter_mm: float,
     stitching: Stitching,
 ) -> list[Vectors]:
-    """Cover every crossing, from the end of the first half back to its start.
+    """Cover every crossing that a stage passes second, from the end of the laid wire backward.
 
     Parameters
     ----------
+    stage
+        The stage that is laid next, 1 or later.
     laid
-        The first half, which the needle must miss.
+        The wire of all stages before it, which the needle must miss.
     clear_mm
         Smallest distance of the needle from a centreline.
 
     Returns
     -------
     list of Vectors
-        For each crossing the needle points (n, 2) in mm, on alternate sides of the first-half wire
-        but for the locks at both ends.
+        For each crossing the needle points (n, 2) in mm, on alternate sides of the laid wire but
+        for the locks at both ends.
 
     Raises
     ------
     PatternError
         As `patterns.couching.needle_points`.
     """
-    spans = sorted(cover_spans_mm(circuit, wire_diameter_mm, stitching).tolist(), reverse=True)
+    spans = cover_spans_mm(circuit, stage, wire_diameter_mm, stitching).tolist()
+    spans.sort(reverse=True)
     stations = [_stations(begin, end, stitching.cover_spacing_mm) for begin, end in spans]
     sides = [sides_with_locks(alternate_sides(len(own))) for own in stations]
     locked = [with_locks(own, stitching.lock_length_mm) for own in stations]
-    points = needle_points(
-        circuit.first_half, np.concatenate(locked), np.concatenate(sides), laid, clear_mm
-    )
+    wire = circuit.laid_before(stage)
+    points = needle_points(wire, np.concatenate(locked), np.concatenate(sides), laid, clear_mm)
     return np.split(points, np.cumsum([len(own) for own in locked])[:-1])
 
 
-def cover_spans_mm(circuit: Circuit, wire_diameter_mm: float, stitching: Stitching) -> Lengths:
-    """Where along the first half each cover begins and ends (n, 2), in the order of the crossings.
+def cover_spans_mm(
+    circuit: Circuit, stage: int, wire_diameter_mm: float, stitching: Stitching
+) -> Lengths:
+    """Where along the laid wire each cover begins and ends (n, 2), in the order of the crossings.
 
-    A cover reaches one stitch past the last point at which the surface of the second half is
-    nearer than ``cover_reach_mm``, or to the end of the half.
+    A cover reaches one stitch past the last point at which the surface of the wire of the stage,
+    that is laid next, is nearer than ``cover_reach_mm``, or to the end of the laid wire.
     """
     near_mm = wire_diameter_mm + stitching.cover_reach_mm
-    crossing = np.array([crossing.first_mm for crossing in circuit.crossings], dtype=float)
+    crossing = np.array([c.first_mm for c in circuit.crossings_of(stage)], dtype=float)
+    wire = circuit.laid_before(stage)
     edge = _edges(
-        circuit.first_half,
-        laid_wire(circuit.second_half),
+        wire,
+        laid_wire(circuit.stages[stage]),
         np.repeat(crossing, 2),
         np.tile([-stitching.cover_spacing_mm, stitching.cover_spacing_mm], len(crossing)),
         near_mm,
     ).reshape(-1, 2)
     beyond = edge + np.array([-stitching.cover_spacing_mm, stitching.cover_spacing_mm])
-    return np.clip(beyond, 0.0, circuit.first_half.length_mm)
+    return np.clip(beyond, 0.0, wire.length_mm)
 
 
 def _stations(begin_mm: float, end_mm: float, spacing_mm: float) -> Lengths:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,6 +63,16 @@ def laid_wire(*paths: WirePath) -> LaidWire:
         np.array([not isinstance(piece, Line) for piece in pieces]),
         np.array([_shape(piece) for piece in pieces]),
         np.array([[outline.coords[0], outline.coords[-1]] for outline in outlines]),
+    )
+
+
+def all_laid(parts: Sequence[LaidWire]) -> LaidWire:
+    """Put wires that are ready together, without making them ready again."""
+    return LaidWire(
+        shapely.STRtree(np.concatenate([part.tree.geometries for part in parts])),
+        np.concatenate([part.is_arc for part in parts]),
+        np.concatenate([part.shape for part in parts]),
+        np.concatenate([part.ends for part in parts]),
     )
 
 

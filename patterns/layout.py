@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import networkx as nx
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -15,6 +16,12 @@ Indices = NDArray[np.intp]
 
 TANGENCY_TOLERANCE_MM = 1e-6
 """Two loops touch when the distance of their centres is the sum of their radii to within this."""
+
+ROUNDED_MM = 9e-4
+"""The same for circles given with three or four decimals; the wire's joints stay as small."""
+
+NEARLY_MM = 1.0
+"""Loops nearer than this that do not touch are a mistake: wires so near may short or chafe."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,8 +72,14 @@ class Layout:
     contacts: tuple[Contact, ...]
 
 
-def tangent_layout(loops: tuple[Loop, ...]) -> Layout:
+def tangent_layout(loops: tuple[Loop, ...], tolerance_mm: float = TANGENCY_TOLERANCE_MM) -> Layout:
     """Find the contacts of a set of loops.
+
+    Parameters
+    ----------
+    tolerance_mm
+        Loops touch when they overlap by less, or are apart by less: `ROUNDED_MM` for circles that
+        somebody typed in.
 
     Raises
     ------
@@ -75,16 +88,15 @@ def tangent_layout(loops: tuple[Loop, ...]) -> Layout:
     """
     centre = np.array([(loop.x_mm, loop.y_mm) for loop in loops]).reshape(-1, 2)
     radius = np.array([loop.radius_mm for loop in loops])
-    i, j = _neighbours(centre, radius)
+    i, j, gap = _neighbours(centre, radius, tolerance_mm)
     distance = np.hypot(*(centre[j] - centre[i]).T)
-    gap = distance - radius[i] - radius[j]
-    if np.any(gap < -TANGENCY_TOLERANCE_MM):
+    if np.any(gap < -tolerance_mm):
         k = int(np.argmin(gap))
         raise PatternError(
             f"loops {i[k]} and {j[k]} overlap: their centres are {distance[k]:.6g} mm apart, "
             f"and their radii add up to {radius[i[k]] + radius[j[k]]:.6g} mm"
         )
-    near = gap <= TANGENCY_TOLERANCE_MM
+    near = gap <= tolerance_mm
     i, j = i[near], j[near]
     point = centre[i] + (centre[j] - centre[i]) * (radius[i] / (radius[i] + radius[j]))[:, None]
     return Layout(
@@ -96,11 +108,62 @@ def tangent_layout(loops: tuple[Loop, ...]) -> Layout:
     )
 
 
-def _neighbours(centre: Floats, radius: Floats) -> tuple[Indices, Indices]:
-    """Pairs of loops (first < second, in order) whose bounding boxes come together."""
-    half = (radius + TANGENCY_TOLERANCE_MM)[:, None]
+def check_tangent(layout: Layout) -> None:
+    """Refuse loops that nearly touch, and loops that no row of touching loops leads to.
+
+    Raises
+    ------
+    PatternError
+        The message names the pair of loops and how far apart they are.
+    """
+    centre = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops]).reshape(-1, 2)
+    radius = np.array([loop.radius_mm for loop in layout.loops])
+    touching = {(contact.first, contact.second) for contact in layout.contacts}
+    for i, j, gap in zip(*_neighbours(centre, radius, NEARLY_MM), strict=True):
+        if gap < NEARLY_MM and (i, j) not in touching:
+            raise PatternError(
+                f"loops {_named(layout.loops, i)} and {_named(layout.loops, j)} do not touch, but "
+                f"are only {gap:.4f} mm apart: let them touch, or move them at least "
+                f"{NEARLY_MM:g} mm apart"
+            )
+    reached = _reached(layout)
+    missed = [k for k in range(len(layout.loops)) if k not in reached]
+    if missed:
+        raise PatternError(
+            f"one wire cannot run through all loops: {len(missed)} of {len(layout.loops)} are "
+            f"apart from loop 0; {nearest_pair_text(layout.loops, sorted(reached), missed)}"
+        )
+
+
+def nearest_pair_text(loops: tuple[Loop, ...], some: list[int], others: list[int]) -> str:
+    """Say which pair of some and other loops is nearest, and how far apart it is."""
+    x, y, radius = np.array([(loops[n].x_mm, loops[n].y_mm, loops[n].radius_mm) for n in some]).T
+    best, near, far = np.inf, 0, 0
+    for k in others:
+        gap = np.hypot(x - loops[k].x_mm, y - loops[k].y_mm) - radius - loops[k].radius_mm
+        if gap.min() < best:
+            best, near, far = float(gap.min()), some[int(np.argmin(gap))], k
+    return f"the nearest pair, {near} and {far}, is {max(best, 0.0):.3f} mm apart"
+
+
+def _reached(layout: Layout) -> set[int]:
+    """Loops to which touching loops lead from the first."""
+    graph: nx.Graph[int] = nx.Graph()
+    graph.add_nodes_from(range(len(layout.loops)))
+    graph.add_edges_from((contact.first, contact.second) for contact in layout.contacts)
+    return set(nx.node_connected_component(graph, 0)) if layout.loops else set()
+
+
+def _named(loops: tuple[Loop, ...], k: int) -> str:
+    return f"{k} at ({loops[k].x_mm:g}, {loops[k].y_mm:g}) mm"
+
+
+def _neighbours(centre: Floats, radius: Floats, reach_mm: float) -> tuple[Indices, Indices, Floats]:
+    """Pairs of loops (first < second, in order) that may be as near as a reach, and their gaps."""
+    half = (radius + reach_mm)[:, None]
     boxes = shapely.box(*(centre - half).T, *(centre + half).T)
     i, j = shapely.STRtree(boxes).query(boxes)
     i, j = i[i < j], j[i < j]
     order = np.lexsort((j, i))
-    return i[order], j[order]
+    i, j = i[order], j[order]
+    return i, j, np.hypot(*(centre[j] - centre[i]).T) - radius[i] - radius[j]

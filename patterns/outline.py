@@ -86,13 +86,12 @@ def cut_outline(
     """
     _check_quantities(wire_diameter_mm, margin_mm, corner_radius_mm)
     clearance = wire_diameter_mm / 2 + margin_mm
-    wires = [WireIndex(circuit.first_half), WireIndex(circuit.second_half)]
+    wire = WireIndex(circuit.wire)
     for excess in (_FIRST_EXCESS_MM, CHORD_TOLERANCE_MM):
         fabric = _fabric(circuit, clearance + excess, corner_radius_mm)
         _check_openings(circuit.layout, fabric, wire_diameter_mm, corner_radius_mm)
         outline = _outline(fabric)
-        found = [edge_clearance_mm(*outline.edges_mm(), wire, 2 * clearance) for wire in wires]
-        if np.min(found) >= clearance:
+        if edge_clearance_mm(*outline.edges_mm(), wire, 2 * clearance).min() >= clearance:
             return outline
     raise PatternError(
         f"no cut line keeps {margin_mm:g} mm from the wire: two stretches of it, or a loop and a "
@@ -117,12 +116,7 @@ def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> P
     grown = clearance_mm + corner_radius_mm
     parts = [
         _disc(loop.x_mm, loop.y_mm, loop.radius_mm + grown) for loop in circuit.layout.loops
-    ] + [
-        _grown_line(piece, grown)
-        for half in (circuit.first_half, circuit.second_half)
-        for piece in half.pieces
-        if isinstance(piece, Line)
-    ]
+    ] + [_grown_line(piece, grown) for piece in circuit.wire.pieces if isinstance(piece, Line)]
     fabric: BaseGeometry = union_all(parts)
     if corner_radius_mm > 0:
         fabric = fabric.buffer(-corner_radius_mm, quad_segs=_quarter_steps(corner_radius_mm))

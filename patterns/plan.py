@@ -24,14 +24,13 @@ class BlockKind(StrEnum):
     """What a block of stitches is for."""
 
     MARKS = "marks"
-    WIRE_FIRST = "wire-first-half"
+    WIRE = "wire"
     COVER = "cover"
-    WIRE_SECOND = "wire-second-half"
 
     @property
     def is_wire(self) -> bool:
         """Whether the wire head is at work: no trim, no jump."""
-        return self in (BlockKind.WIRE_FIRST, BlockKind.WIRE_SECOND)
+        return self is BlockKind.WIRE
 
 
 @dataclass(frozen=True)
@@ -58,11 +57,15 @@ class Block:
     ----------
     instruction : str
         What the operator does at the stop before the block.
+    stage : int
+        Of wire, which stage of the circuit is laid, from 0; of a cover, the stage that is laid next
+        on top of it; of marks, 0.
     """
 
     kind: BlockKind
     instruction: str
     runs: tuple[Run, ...]
+    stage: int = 0
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -65,40 +65,35 @@ def plan_records(plan: StitchPlan, machine: Machine) -> Records:
     return Records(command, xy)
 
 
-def plan_from_records(
-    records: Records, kinds: Sequence[BlockKind], instructions: Sequence[str]
-) -> StitchPlan:
+def plan_from_records(records: Records, expected: Sequence[Block]) -> StitchPlan:
     """Read a plan back from its records.
 
     Parameters
     ----------
-    kinds, instructions
+    expected
         What the blocks are for, and what the operator does before each: stitch files do not say.
+        The runs of these blocks are not looked at.
 
     Raises
     ------
     PatternError
-        When there are not as many blocks with stitches as kinds and instructions.
+        When there are not as many blocks with stitches as are expected.
     """
     first, last, approach = _stretches(records)
     stops = np.cumsum(records.command == Command.STOP)
     blocks = int(stops[-1]) + 1 if len(stops) else 0
     filled = np.unique(stops[first])
-    if not (len(kinds) == len(instructions) == blocks == len(filled)):
+    if not (len(expected) == blocks == len(filled)):
         raise PatternError(
             f"the stitches are in {len(filled)} of {blocks} blocks between the machine's stops; "
-            f"expected {len(kinds)} blocks ({', '.join(kinds)}), with {len(instructions)} "
-            f"instructions"
+            f"expected {len(expected)} blocks ({', '.join(block.kind for block in expected)})"
         )
-    runs: list[list[Run]] = [[] for _ in kinds]
+    runs: list[list[Run]] = [[] for _ in expected]
     for begin, end, start in zip(first, last, approach, strict=True):
         run = Run((int(start[0]), int(start[1])), records.xy[begin : end + 1].copy())
         runs[int(stops[begin])].append(run)
     return StitchPlan(
-        tuple(
-            Block(kind, text, tuple(own))
-            for kind, text, own in zip(kinds, instructions, runs, strict=True)
-        )
+        tuple(replace(block, runs=tuple(own)) for block, own in zip(expected, runs, strict=True))
     )
 
 

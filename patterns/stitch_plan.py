@@ -1,8 +1,6 @@
-"""The whole plan: marks, first half of the wire, covers, second half."""
+"""The whole plan: marks, then the stages of the wire with covers in between."""
 
 from __future__ import annotations
-
-from math import ceil
 
 import numpy as np
 
@@ -10,11 +8,12 @@ from patterns.circuit import Circuit, CrossingKind
 from patterns.couching import FREE_TAIL_MM, LEFT, RIGHT, couching, needle_clearance_mm
 from patterns.cover import covers
 from patterns.errors import PatternError
-from patterns.laid_wire import LaidWire, laid_wire
+from patterns.instructions import MARKS_TEXT, Instructions
+from patterns.laid_wire import LaidWire, all_laid, laid_wire
 from patterns.machine import Machine
 from patterns.mark_stitches import mark_stitches
-from patterns.path import Vectors
-from patterns.plan import UNITS_PER_MM, Block, BlockKind, Run, StitchPlan
+from patterns.path import Vectors, WirePath
+from patterns.plan import UNITS_PER_MM, Block, BlockKind, StitchPlan
 from patterns.registration import Mark
 from patterns.sewn_run import thread_run, wire_run
 from patterns.stitching import Stitching
@@ -42,27 +41,49 @@ def stitch_plan(
     """
     clear = needle_clearance_mm(wire_diameter_mm, machine, stitching)
     _check_settings(circuit, stitching, machine, clear)
-    first, both = laid_wire(circuit.first_half), laid_wire(circuit.first_half, circuit.second_half)
-    span = (FREE_TAIL_MM, circuit.first_half.length_mm)
-    sewn_first = couching(
-        circuit.first_half, span, LEFT, first, clear_mm=clear, stitching=stitching
-    )
-    satin = covers(circuit, first, clear, wire_diameter_mm, stitching)
-    span = (0.0, circuit.second_half.length_mm - FREE_TAIL_MM)
-    # Not into the last hole of the first half, whose lock it would loosen.
-    side = _other_side(circuit, sewn_first[-1])
-    sewn_second = couching(
-        circuit.second_half, span, side, both, clear_mm=clear, stitching=stitching
-    )
-    say = _instructions(circuit, satin, wire_diameter_mm)
-    blocks = (
-        _block(BlockKind.WIRE_FIRST, say, (wire_run(sewn_first, machine),)),
-        _block(BlockKind.COVER, say, tuple(thread_run(points, machine) for points in satin)),
-        _block(BlockKind.WIRE_SECOND, say, (wire_run(sewn_second, machine),)),
-    )
-    for block, laid in zip(blocks, (first, first, both), strict=True):
-        _check_clear(block, laid, clear - stitching.needle_margin_mm)
-    return StitchPlan((*_mark_blocks(marks, stitching, machine, say), *blocks))
+    parts = [laid_wire(stage) for stage in circuit.stages]
+    laid = [all_laid(parts[: k + 1]) for k in range(len(parts))]
+    tied = _tied_down(circuit, laid, clear, stitching)
+    satin = [
+        covers(
+            circuit,
+            stage,
+            laid[stage - 1],
+            clear_mm=clear,
+            wire_diameter_mm=wire_diameter_mm,
+            stitching=stitching,
+        )
+        for stage in range(1, len(parts))
+    ]
+    say = Instructions(circuit, wire_diameter_mm, satin)
+    blocks = [*_mark_blocks(marks, stitching, machine)]
+    for stage, points in enumerate(tied):
+        if stage:
+            runs = tuple(thread_run(own, machine) for own in satin[stage - 1])
+            blocks.append(Block(BlockKind.COVER, say.cover(stage), runs, stage))
+        run = wire_run(points, machine)
+        blocks.append(Block(BlockKind.WIRE, say.wire(stage), (run,), stage))
+    for block in blocks:
+        if block.kind is not BlockKind.MARKS:
+            before = block.kind is BlockKind.COVER
+            _check_clear(block, laid[block.stage - before], clear - stitching.needle_margin_mm)
+    return StitchPlan(tuple(blocks))
+
+
+def _tied_down(
+    circuit: Circuit, laid: list[LaidWire], clear_mm: float, stitching: Stitching
+) -> list[Vectors]:
+    """Needle points of the couching of every stage; the free ends of the tails have none."""
+    tied: list[Vectors] = []
+    for stage, wire in enumerate(circuit.stages):
+        begin = FREE_TAIL_MM if stage == 0 else 0.0
+        end = wire.length_mm - (FREE_TAIL_MM if stage == len(laid) - 1 else 0.0)
+        # Not into the last hole of the stage before, whose lock it would loosen.
+        side = _other_side(wire, tied[-1][-1]) if tied else LEFT
+        tied.append(
+            couching(wire, (begin, end), side, laid[stage], clear_mm=clear_mm, stitching=stitching)
+        )
+    return tied
 
 
 def _check_settings(
@@ -82,54 +103,22 @@ def _check_settings(
         )
 
 
-def _other_side(circuit: Circuit, needle_mm: Vectors) -> float:
-    """Side of the second half's start on which a needle point does not lie."""
-    point, tangent = circuit.second_half.at(0.0)
+def _other_side(wire: WirePath, needle_mm: Vectors) -> float:
+    """Side of a wire's start on which a needle point does not lie."""
+    point, tangent = wire.at(0.0)
     (x, y), (tx, ty) = needle_mm - point[0], tangent[0]
     return RIGHT if tx * y - ty * x > 0 else LEFT
 
 
 def _mark_blocks(
-    marks: tuple[Mark, ...], stitching: Stitching, machine: Machine, say: dict[BlockKind, str]
+    marks: tuple[Mark, ...], stitching: Stitching, machine: Machine
 ) -> tuple[Block, ...]:
     runs = tuple(
         thread_run(points, machine)
         for mark in marks
         for points in mark_stitches(mark, stitching.lock_length_mm)
     )
-    return (_block(BlockKind.MARKS, say, runs),) if runs else ()
-
-
-def _block(kind: BlockKind, say: dict[BlockKind, str], runs: tuple[Run, ...]) -> Block:
-    return Block(kind, say[kind], runs)
-
-
-def _instructions(
-    circuit: Circuit, satin: list[Vectors], wire_diameter_mm: float
-) -> dict[BlockKind, str]:
-    """Say what the operator does before each block."""
-    split = circuit.second_half.at(0.0)[0]
-    slack = ceil(np.hypot(*(np.concatenate(satin) - split).T).max())
-    wire = ceil(circuit.wire_length_mm)
-    tail = f"{FREE_TAIL_MM:g} mm"
-    return {
-        BlockKind.MARKS: (
-            "Thread head, a thread that stands out against the fabric: the registration marks."
-        ),
-        BlockKind.WIRE_FIRST: (
-            f"Wire head: load at least {wire} mm of {wire_diameter_mm:g} mm wire, both tails "
-            f"included, and {slack} mm of slack. Let {tail} of wire stand out behind the needle, "
-            f"for the crimp. The first half of the wire is laid."
-        ),
-        BlockKind.COVER: (
-            f"Do not cut the wire: pull out at least {slack} mm of slack and hold it clear of the "
-            f"needle. Thread head, cover thread: satin on the first half, {len(satin)} crossings."
-        ),
-        BlockKind.WIRE_SECOND: (
-            f"Wire head, the same wire: take the slack back. The second half is laid. Then cut the "
-            f"wire {tail} beyond the last stitch, and crimp both tails after release."
-        ),
-    }
+    return (Block(BlockKind.MARKS, MARKS_TEXT, runs),) if runs else ()
 
 
 def _check_clear(block: Block, laid: LaidWire, smallest_mm: float) -> None:

@@ -22,8 +22,7 @@ class Stitching:
     cover_spacing_mm : float
         Distance along the wire between the needle points of the satin that covers it.
     cover_reach_mm : float
-        A first-half wire is covered wherever the surface of the second-half wire comes nearer
-        than this.
+        Laid wire is covered wherever the surface of wire of the next stage comes nearer than this.
     lock_length_mm : float
         Length of the small stitches back and forth that lock a thread.
     tail_length_mm : float

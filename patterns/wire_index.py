@@ -80,6 +80,7 @@ class WireIndex:
         points_mm: Vectors,
         reach_mm: float,
         away_from: tuple[Numbers, float] | None = None,
+        among: NDArray[np.bool_] | None = None,
     ) -> Nearest:
         """Find the nearest place on the wire for each point within a reach.
 
@@ -92,15 +93,11 @@ class WireIndex:
         away_from : (array (n,), float), optional
             Arclengths, one a point, and a length: pieces whose nearest place is not farther than
             that along the wire are left out.
+        among : array of bool (pieces,), optional
+            Pieces that are looked at.
         """
-        which, piece = self.pairs(np.asarray(points(points_mm), dtype=np.object_), reach_mm)
-        distance, along, side = self.to_pieces(points_mm[which], piece)
-        station = along + self._start[piece]
-        eligible = distance <= reach_mm
-        if away_from is not None:
-            eligible &= np.abs(station - away_from[0][which]) > away_from[1]
-        order = np.flatnonzero(eligible)
-        order = order[np.lexsort((distance[order], which[order]))]
+        which, _, (distance, station, side) = self._eligible(points_mm, reach_mm, away_from, among)
+        order = np.lexsort((distance, which))
         found, first = np.unique(which[order], return_index=True)
         best = order[first]
         result = Nearest(*(np.full(len(points_mm), fill) for fill in (np.inf, np.nan, np.nan)))
@@ -108,6 +105,42 @@ class WireIndex:
         result.station_mm[found] = station[best]
         result.side_mm[found] = side[best]
         return result
+
+    def within(
+        self,
+        points_mm: Vectors,
+        reach_mm: float,
+        away_from: tuple[Numbers, float] | None = None,
+        among: NDArray[np.bool_] | None = None,
+    ) -> tuple[Indices, Indices]:
+        """Pair points with all pieces within reach; what is left out is as in `nearest`.
+
+        Returns
+        -------
+        point, piece : arrays (m,)
+            Indices of the pairs.
+        """
+        which, piece, _ = self._eligible(points_mm, reach_mm, away_from, among)
+        return which, piece
+
+    def _eligible(
+        self,
+        points_mm: Vectors,
+        reach_mm: float,
+        away_from: tuple[Numbers, float] | None,
+        among: NDArray[np.bool_] | None,
+    ) -> tuple[Indices, Indices, tuple[Numbers, Numbers, Numbers]]:
+        """Pairs of points and pieces, with distance, station and signed offset."""
+        which, piece = self.pairs(np.asarray(points(points_mm), dtype=np.object_), reach_mm)
+        if among is not None:
+            which, piece = which[among[piece]], piece[among[piece]]
+        distance, along, side = self.to_pieces(points_mm[which], piece)
+        station = along + self._start[piece]
+        eligible = distance <= reach_mm
+        if away_from is not None:
+            eligible &= np.abs(station - away_from[0][which]) > away_from[1]
+        measures = (distance[eligible], station[eligible], side[eligible])
+        return which[eligible], piece[eligible], measures
 
     def to_pieces(self, points_mm: Vectors, piece: Indices) -> tuple[Numbers, Numbers, Numbers]:
         """Distance, arclength within the piece and signed offset of point i from its piece i."""

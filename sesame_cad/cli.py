@@ -18,6 +18,7 @@ COMMANDS = MappingProxyType(
         "design": "Make the fabrication package of an array.",
         "check": "Read a design back from disk and verify every file.",
         "solve": "Solve one dimensionless loop.",
+        "export-evolver": "Write a loop as a datafile of Surface Evolver.",
         "schema": "Print the JSON schema of specifications, for editors.",
     }
 )
@@ -36,10 +37,11 @@ class LazyGroup(click.Group):
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import ``sesame_cad.commands.<name>`` and take its ``command``."""
+        """Import ``sesame_cad.commands.<name>``, with _ for -, and take its ``command``."""
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = import_module(f"sesame_cad.commands.{cmd_name}").command
+        module = import_module(f"sesame_cad.commands.{cmd_name.replace('-', '_')}")
+        command: click.Command = module.command
         return command
 
     def resolve_command(

@@ -7,7 +7,7 @@ from typing import Any
 
 from patterns.circuit import CrossingKind
 from patterns.electrics import resistance_ohm
-from patterns.plan import StitchPlan
+from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.specification import Specification
@@ -19,7 +19,7 @@ from solver.threshold import critical_beta, critical_strain
 
 Data = dict[str, Any]
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 """Raised when a key of `design.json` changes its meaning."""
 
 
@@ -34,24 +34,13 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         Size and hash of each file by its path in the design's folder.
     """
     spec = design.spec
-    cold = design.cold.materials
-    reading, poisson = Reading(spec.model.reading), spec.fabric.poisson
     return {
         "format": FORMAT_VERSION,
         "name": spec.name,
-        "beta": cold.beta,
-        "beta_hot": design.hot.materials.beta,
-        "scaling_mm": spec.wire.diameter_mm**4 / spec.layout.loop_diameter_mm**3,
         "strain": spec.fabric.prestrain,
-        "poisson": poisson,
+        "poisson": spec.fabric.poisson,
         "reading": spec.model.reading,
-        "threshold": {
-            "critical_beta": critical_beta(spec.fabric.prestrain, poisson, reading),
-            "critical_strain_cold": critical_strain(cold.beta, poisson, reading),
-            "critical_strain_hot": critical_strain(design.hot.materials.beta, poisson, reading),
-        },
-        "cold": state_data(design.cold),
-        "hot": state_data(design.hot),
+        **_shape_data(design),
         "circuit": circuit_data(spec, design.pattern),
         "stitch": stitch_data(design.pattern.plan, records),
         "outline": {
@@ -60,6 +49,29 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         },
         "specification": spec.model_dump(mode="json"),
         "files": files,
+    }
+
+
+def _shape_data(design: Design) -> Data:
+    """Keys of the shape; null in a design without one."""
+    spec = design.spec
+    if not design.states:
+        keys = ("beta", "beta_hot", "scaling_mm", "threshold", "cold", "hot")
+        return dict.fromkeys(keys)
+    cold, hot = design.states
+    beta, beta_hot = cold.materials.beta, hot.materials.beta
+    reading, poisson = Reading(spec.model.reading), spec.fabric.poisson
+    return {
+        "beta": beta,
+        "beta_hot": beta_hot,
+        "scaling_mm": spec.wire.diameter_mm**4 / spec.layout.diameter_mm**3,
+        "threshold": {
+            "critical_beta": critical_beta(spec.fabric.prestrain, poisson, reading),
+            "critical_strain_cold": critical_strain(beta, poisson, reading),
+            "critical_strain_hot": critical_strain(beta_hot, poisson, reading),
+        },
+        "cold": state_data(cold),
+        "hot": state_data(hot),
     }
 
 
@@ -98,7 +110,7 @@ def state_data(state: State) -> Data:
         "pitch_mm": state.pitch_mm,
         "footprint_mm": [width, depth],
         "energy_mJ": state.energy_mJ,
-        "array_energy_mJ": state.energy_mJ * state.rows * state.columns,
+        "array_energy_mJ": state.energy_mJ * len(state.cells),
         "omitted_terms": _omitted_data(state.omitted),
     }
 
@@ -124,9 +136,9 @@ def circuit_data(spec: Specification, laid: Pattern) -> Data:
         "terminal_crossings": len(circuit.crossings) - contacts,
         "covered_terminal_crossings": insulated[CrossingKind.TERMINALS],
         "closed": circuit.closed,
-        "smallest_bend_radius_mm": min(
-            circuit.first_half.smallest_radius_mm, circuit.second_half.smallest_radius_mm
-        ),
+        "loops": len(circuit.layout.loops),
+        "stages": len(circuit.stages),
+        "smallest_bend_radius_mm": circuit.smallest_radius_mm,
         "tail_length_mm": spec.stitching.tail_length_mm,
     }
 
@@ -141,6 +153,7 @@ def stitch_data(plan: StitchPlan, records: Records) -> Data:
         "blocks": [
             {
                 "kind": str(block.kind),
+                "stage": block.stage + 1 if block.kind is not BlockKind.MARKS else None,
                 "instruction": block.instruction,
                 "stitches": sum(len(run.needles) for run in block.runs),
             }

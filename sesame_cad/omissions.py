@@ -17,7 +17,7 @@ SMALL = 0.01
 
 def loop_mass_kg(spec: Specification) -> float:
     """Mass of one loop of wire and the fabric in it."""
-    radius_m = spec.layout.loop_diameter_mm / 2e3
+    radius_m = spec.layout.diameter_mm / 2e3
     wire_area_m2 = math.pi * (spec.wire.diameter_mm / 2e3) ** 2
     wire_kg = 2 * math.pi * radius_m * wire_area_m2 * spec.wire.density_g_cm3 * 1e3
     unstretched_m2 = math.pi * (radius_m / (1 + spec.fabric.prestrain)) ** 2
@@ -31,7 +31,7 @@ def omissions(
 
     Contact is judged with the real wire's diameter instead of a line's.
     """
-    radius_mm = spec.layout.loop_diameter_mm / 2
+    radius_mm = spec.layout.diameter_mm / 2
     alpha = materials.alpha(spec.fabric.poisson)
     weight = loop_mass_kg(spec) * GRAVITY_M_S2 / materials.force_unit_N
     margin = (spec.outline.margin_mm + spec.wire.diameter_mm / 2) / radius_mm

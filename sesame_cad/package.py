@@ -82,11 +82,10 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
             "pictures/plan.png",
             plan_picture(laid.circuit, laid.plan, laid.outline, laid.marks),
         )
-        progress("picture of the shapes")
-        yield (
-            "pictures/shapes.png",
-            shapes_picture([_view(made.spec, state) for state in made.states]),
-        )
+        if made.states:
+            progress("picture of the shapes")
+            views = [_view(made.spec, state) for state in made.states]
+            yield "pictures/shapes.png", shapes_picture(views)
 
 
 def _view(spec: Specification, state: State) -> ShapeView:

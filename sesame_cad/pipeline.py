@@ -13,12 +13,13 @@ import numpy as np
 
 from patterns.circuit import Circuit, Crossing
 from patterns.errors import PatternError
+from patterns.layout import tangent_layout
+from patterns.one_wire import one_wire
 from patterns.outline import Outline, cut_outline
 from patterns.plan import StitchPlan
 from patterns.registration import Mark, registration_marks
-from patterns.rules import check_plan
+from patterns.rules import check_outline, check_plan
 from patterns.stitch_plan import stitch_plan
-from patterns.tangent_switch import grid_circuit
 from patterns.violation import Violation
 from sesame_cad.errors import InputError
 from sesame_cad.specification import Specification
@@ -48,17 +49,19 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Design:
-    """Everything that follows from a specification."""
+    """Everything that follows from a specification.
+
+    Attributes
+    ----------
+    spec : Specification
+    pattern : Pattern
+    states : tuple of State
+        Cold and hot; none when no shape is asked for.
+    """
 
     spec: Specification
-    cold: State
-    hot: State
     pattern: Pattern
-
-    @property
-    def states(self) -> tuple[State, State]:
-        """Cold and hot."""
-        return self.cold, self.hot
+    states: tuple[State, ...]
 
 
 def pattern(spec: Specification) -> Pattern:
@@ -89,11 +92,15 @@ def design(spec: Specification, progress: Callable[[str], None] = lambda _: None
     """
     progress("circuit and stitches")
     laid = pattern(spec)
-    progress("cold shape")
-    cold = _refusing(spec, partial(solve_state, spec, "cold", spec.wire.modulus_cold_GPa))
-    progress("hot shape")
-    hot = _refusing(spec, partial(solve_state, spec, "hot", spec.wire.modulus_hot_GPa))
-    return Design(spec, cold, hot, laid)
+    states: list[State] = []
+    if spec.layout.shape == "cell":
+        for name, modulus in (
+            ("cold", spec.wire.modulus_cold_GPa),
+            ("hot", spec.wire.modulus_hot_GPa),
+        ):
+            progress(f"{name} shape")
+            states.append(_refusing(spec, partial(solve_state, spec, name, modulus)))
+    return Design(spec, laid, tuple(states))
 
 
 def _refusing(spec: Specification, work: Callable[[], Result]) -> Result:
@@ -107,18 +114,17 @@ def _refusing(spec: Specification, work: Callable[[], Result]) -> Result:
 def _pattern(spec: Specification) -> Pattern:
     stitching, machine = spec.patterns_stitching(), spec.patterns_machine()
     wire_mm = spec.wire.diameter_mm
-    circuit = grid_circuit(
-        spec.layout.rows,
-        spec.layout.columns,
-        spec.layout.loop_diameter_mm,
-        stitching.tail_length_mm,
-    )
+    layout = tangent_layout(spec.layout.loops(), spec.layout.tolerance_mm)
+    circuit = one_wire(layout, spec.layout.side, stitching.tail_length_mm)
     outline = cut_outline(circuit, wire_mm, spec.outline.margin_mm, spec.outline.corner_radius_mm)
     low, high = outline.outside.min(axis=0), outline.outside.max(axis=0)
     bounds = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
     marks = registration_marks(bounds, stitching.mark_size_mm, stitching.mark_gap_mm)
     plan = stitch_plan(circuit, stitching, machine, wire_mm, marks)
-    violations = check_plan(circuit, plan, machine, stitching, wire_mm)
+    violations = (
+        *check_plan(circuit, plan, machine, stitching, wire_mm),
+        *check_outline(outline, circuit, wire_mm, spec.outline.margin_mm, plan),
+    )
     if violations:
         raise InputError(*_first_of_each_rule(spec, violations))
     return Pattern(circuit, outline, marks, plan)
@@ -134,7 +140,7 @@ def _first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) 
 
 
 def covered_crossings(spec: Specification, laid: Pattern) -> tuple[Crossing, ...]:
-    """Crossings of the two halves that thread insulates, judged by the stitches themselves."""
+    """Crossings of the wire that thread insulates, judged by the stitches themselves."""
     bare = [
         violation
         for violation in check_plan(

@@ -29,22 +29,23 @@ def state_solid(spec: Specification, state: State) -> trimesh.Trimesh:
 
 def flat_solid(spec: Specification, state: State) -> trimesh.Trimesh:
     """Solid of the array as it is sewn: flat loops at the pitch of their diameter."""
-    radius_mm = spec.layout.loop_diameter_mm / 2
+    radius_mm = spec.layout.diameter_mm / 2
 
     def disc(radius: Vectors, angle_rad: Vectors) -> Vectors:
         x, y = radius * np.cos(angle_rad), radius * np.sin(angle_rad)
         return radius_mm * np.stack([x, y, np.zeros_like(x)], axis=1)
 
-    centres = state.centres_mm() * (spec.layout.loop_diameter_mm / state.pitch_mm)
+    centres = state.centres_mm() * (spec.layout.diameter_mm / state.pitch_mm)
     return _array(spec, disc, centres)
 
 
 def solids(
     design: Design, progress: Callable[[str], None] = lambda _: None
 ) -> Iterator[tuple[str, trimesh.Trimesh]]:
-    """Give the three previews by name, one after the other."""
-    progress("preview: flat")
-    yield "flat", flat_solid(design.spec, design.cold)
+    """Give the three previews by name, one after the other; none of a design without a shape."""
+    for state in design.states[:1]:
+        progress("preview: flat")
+        yield "flat", flat_solid(design.spec, state)
     for state in design.states:
         progress(f"preview: {state.name}")
         yield state.name, state_solid(design.spec, state)

@@ -52,6 +52,26 @@ def staged_directory(target: Path) -> Generator[Path]:
         shutil.rmtree(staging, ignore_errors=True)
 
 
+def write_new_file(target: Path, content: bytes) -> None:
+    """Write a file that appears once it is complete, where there was none.
+
+    Raises
+    ------
+    InputError
+        When the target exists or its parent cannot be written to.
+    """
+    target = target.absolute()
+    _check_free(target)
+    staging = _sibling(target, "new")
+    try:
+        aside = staging / target.name
+        aside.write_bytes(content)
+        _check_free(target)
+        aside.rename(target)
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
 def _move_into_place(staging: Path, target: Path) -> None:
     if not target.exists():
         staging.rename(target)
@@ -75,9 +95,19 @@ def _sibling(target: Path, purpose: str) -> Path:
         raise InputError(f"cannot write in {target.parent}: {error.strerror}") from error
 
 
-def _check_replaceable(target: Path) -> None:
+def _check_free(target: Path) -> None:
+    _check_parent(target)
+    if os.path.lexists(target):
+        raise InputError(f"{target} exists already, and is left as it is; choose another name")
+
+
+def _check_parent(target: Path) -> None:
     if not target.parent.is_dir():
         raise InputError(f"{target.parent} is no directory: make it, or choose another place")
+
+
+def _check_replaceable(target: Path) -> None:
+    _check_parent(target)
     if not os.path.lexists(target):
         return
     if target.is_symlink() or not target.is_dir():

@@ -57,7 +57,8 @@ def _lines(specification: Specification) -> Iterator[str]:
         yield f"[{name}]"
         for key, field in section.model_fields.items():
             yield from _comment(_explained(field))
-            yield f"{'' if field.is_required() else '#'}{key} = {_value(key, name, specification)}"
+            value = _value(key, name, specification)
+            yield f"{'' if key in STARTER.get(name, {}) else '#'}{key} = {value}"
 
 
 def _value(key: str, section: str, specification: Specification) -> str:

@@ -9,6 +9,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from patterns.lattice import Cell
 from sesame_cad.omissions import omissions
 from sesame_cad.specification import Specification
 from solver.compact import solve_loop
@@ -39,7 +40,8 @@ class State:
     omitted : tuple of OmittedTerm
     seconds : float
         What the solve took.
-    rows, columns : int
+    cells : tuple of Cell
+        Row and column of each loop.
     """
 
     name: str
@@ -47,8 +49,7 @@ class State:
     materials: LoopMaterials
     omitted: tuple[OmittedTerm, ...]
     seconds: float
-    rows: int
-    columns: int
+    cells: tuple[Cell, ...]
 
     @property
     def radius_mm(self) -> float:
@@ -74,21 +75,17 @@ class State:
     def footprint_mm(self) -> tuple[float, float]:
         """Width and depth over the outer wires' centrelines, seen from above."""
         edge = self.equilibrium.shape.edge(_EDGE_POINTS) * self.radius_mm
-        width, depth = np.ptp(edge[:, :2], axis=0)
-        return (
-            float(width) + (self.columns - 1) * self.pitch_mm,
-            float(depth) + (self.rows - 1) * self.pitch_mm,
-        )
+        width, depth = np.ptp(edge[:, :2], axis=0) + np.ptp(self.centres_mm(), axis=0)
+        return float(width), float(depth)
 
     def surface(self, radius: Vectors, angle_rad: Vectors) -> Vectors:
         """Positions (n, 3) in mm of points that lay at polar coordinates (unit disc) of a loop."""
         return self.equilibrium.shape.position(radius, angle_rad) * self.radius_mm
 
     def centres_mm(self) -> Vectors:
-        """Centres (rows × columns, 2) of the loops, in the order of the layout."""
-        row, column = np.divmod(np.arange(self.rows * self.columns), self.columns)
-        middle = np.array([(self.columns - 1) / 2, (self.rows - 1) / 2])
-        return (np.stack([column, row], axis=1) - middle) * self.pitch_mm
+        """Centres (n, 2) of the loops, in the order of the layout, around the origin."""
+        place = np.array(self.cells)[:, ::-1]
+        return (place - (place.min(axis=0) + place.max(axis=0)) / 2) * self.pitch_mm
 
 
 def loop_materials(spec: Specification, wire_modulus_GPa: float) -> LoopMaterials:  # noqa: N803
@@ -98,7 +95,7 @@ def loop_materials(spec: Specification, wire_modulus_GPa: float) -> LoopMaterial
         fabric_thickness_m=spec.fabric.thickness_mm / 1e3,
         wire_modulus_Pa=wire_modulus_GPa * 1e9,
         wire_diameter_m=spec.wire.diameter_mm / 1e3,
-        loop_radius_m=spec.layout.loop_diameter_mm / 2e3,
+        loop_radius_m=spec.layout.diameter_mm / 2e3,
     )
 
 
@@ -147,4 +144,4 @@ def solve_state(spec: Specification, name: str, wire_modulus_GPa: float) -> Stat
                 f"{name} shape: {term.term} is left out, and the shape is wrong without "
                 f"({term.measure}: {term.value:.2g}); use a thicker wire or less prestrain"
             )
-    return State(name, found, materials, left, seconds, spec.layout.rows, spec.layout.columns)
+    return State(name, found, materials, left, seconds, spec.layout.cells())

@@ -14,39 +14,51 @@ Data = dict[str, Any]
 def print_design(data: Data, folder: Path) -> None:
     """Print the numbers that decide whether an array is worth sewing; warnings come first."""
     console = Console(highlight=False)
-    for name in ("cold", "hot"):
+    shown = [name for name in ("cold", "hot") if data[name] is not None]
+    for name in shown:
         for left in data[name]["omitted_terms"]:
             if left["matters"]:
                 console.print(
                     f"[yellow]warning[/]: {name}: {left['term']} is left out, and matters: "
                     f"{left['measure']} = {left['value']:.3g}"
                 )
-    console.print(_grid(_model_rows(data)))
-    console.print(_states(data))
+    if shown:
+        console.print(_grid(_model_rows(data)))
+        console.print(_states(data))
+    else:
+        console.print(f'{data["name"]}: no shape is predicted (layout.shape = "none")')
     console.print(_grid(_workshop_rows(data)))
     console.print(f"wrote {folder}/", soft_wrap=True)
 
 
-def print_loop(data: Data) -> None:
-    """Print one dimensionless loop."""
+def print_answer(data: Data) -> None:
+    """Print a dimensionless solve; what a rung cannot tell is left out."""
     console = Console(highlight=False)
+    energy_terms: Data = data["energy_terms"] or {}
     rows = [
+        ("rung", f"{data['rung']}: {data['reason']}"),
         ("shape", _shape_name(data)),
         ("height / perimeter", f"{data['height_over_perimeter']:.6f}"),
-        ("height / radius", f"{data['height_over_radius']:.6f}"),
-        ("pitch / diameter", f"{data['pitch_over_diameter']:.6f}"),
-        ("energy / (E_f t R²)", f"{data['energy']:.8f}"),
-        *((f"  {term}", f"{value:.8f}") for term, value in data["energy_terms"].items()),
+        ("error of the height", _number(data["height_error"], ".1e")),
+        ("height / radius", _number(data["height_over_radius"], ".6f")),
+        ("pitch / diameter", _number(data["pitch_over_diameter"], ".6f")),
+        ("energy / (E_f t R²)", _number(data["energy"], ".8f")),
+        *((f"  {term}", f"{value:.8f}") for term, value in energy_terms.items()),
         ("status", data["status"]),
-        ("gradient norm", f"{data['gradient_norm']:.1e}"),
-        ("lowest eigenvalue", f"{data['lowest_eigenvalue']:.6g}"),
+        ("gradient norm", _number(data["gradient_norm"], ".1e")),
+        ("lowest eigenvalue", _number(data["lowest_eigenvalue"], ".6g")),
         ("steps", f"{data['steps']} on {data['unknowns']} unknowns"),
-        ("seconds", f"{data['seconds']:.4f}"),
+        ("seconds", f"{data['seconds']:.6f}"),
     ]
-    console.print(_grid(rows))
+    console.print(_grid([row for row in rows if row[1]]))
     for left in data["omitted_terms"]:
         mark = "[yellow]warning[/], left out" if left["matters"] else "left out"
-        console.print(f"{mark}: {left['term']} ({left['measure']} = {left['value']:.3g})")
+        value = "" if left["value"] is None else f" = {left['value']:.3g}"
+        console.print(f"{mark}: {left['term']} ({left['measure']}{value})")
+
+
+def _number(value: float | None, style: str) -> str:
+    return "" if value is None else format(value, style)
 
 
 def _shape_name(state: Data) -> str:
@@ -97,6 +109,7 @@ def _workshop_rows(data: Data) -> list[tuple[str, str]]:
             f"{circuit['resistance_ohm_cold']:.2f} Ω cold, "
             f"{circuit['resistance_ohm_hot']:.2f} Ω hot",
         ),
+        ("stages of the wire", f"{circuit['stages']}"),
         ("contacts covered", f"{circuit['covered_contacts']} of {circuit['contacts']}"),
         (
             "stitches",

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from patterns.errors import PatternError
+from patterns.layout import Layout
 from patterns.outline import Outline
 from patterns.plan import UNITS_PER_MM, StitchPlan
 from patterns.records import Records, plan_from_records, plan_records
@@ -152,9 +153,12 @@ def _expected_files(made: Design) -> Iterator[str]:
     name = made.spec.name
     yield from (f"stitch/{name}.{kind}" for kind in made.spec.output.formats)
     yield from (f"cut/{name}.{kind}" for kind in ("svg", "dxf"))
-    yield from (f"shape/{kind}.stl" for kind in ("flat", "cold", "hot"))
     if made.spec.output.pictures:
-        yield from ("pictures/plan.png", "pictures/shapes.png")
+        yield "pictures/plan.png"
+    if made.states:
+        yield from (f"shape/{kind}.stl" for kind in ("flat", "cold", "hot"))
+        if made.spec.output.pictures:
+            yield "pictures/shapes.png"
 
 
 def _check_numbers(reading: _Reading) -> Faults:
@@ -229,11 +233,7 @@ def _rule_faults(records: Records, made: Design) -> Faults:
     """Hold what the file says against the design rules, whatever the plan was."""
     spec, blocks = made.spec, made.pattern.plan.blocks
     try:
-        plan: StitchPlan = plan_from_records(
-            records,
-            [block.kind for block in blocks],
-            [block.instruction for block in blocks],
-        )
+        plan: StitchPlan = plan_from_records(records, blocks)
     except PatternError as error:
         yield str(error)
         return
@@ -292,10 +292,10 @@ def _check_shapes(reading: _Reading) -> Faults:
     """STL files are watertight solids of the predicted size."""
     made = reading.made
     wire = made.spec.wire.diameter_mm
-    rows, columns = made.spec.layout.rows, made.spec.layout.columns
-    loop = made.spec.layout.loop_diameter_mm
-    sizes = {"flat": (columns * loop + wire, rows * loop + wire, wire)}
+    sizes: dict[str, tuple[float, float, float]] = {}
     for state in made.states:
+        width, depth = _laid_size_mm(made.pattern.circuit.layout)
+        sizes["flat"] = (width + wire, depth + wire, wire)
         width, depth = state.footprint_mm
         sizes[state.name] = (width + wire, depth + wire, state.height_mm + wire)
     for name, size in sizes.items():
@@ -307,6 +307,14 @@ def _check_shapes(reading: _Reading) -> Faults:
             yield from (f"{path}: {fault}" for fault in _solid_faults(content, size))
         except DesignFileError as error:
             yield f"{path}: {error}"
+
+
+def _laid_size_mm(layout: Layout) -> tuple[float, float]:
+    """Width and depth over the outer wires' centrelines in the hoop."""
+    place = np.array([(loop.x_mm, loop.y_mm, loop.radius_mm) for loop in layout.loops])
+    centre, radius = place[:, :2], place[:, 2:]
+    width, depth = (centre + radius).max(axis=0) - (centre - radius).min(axis=0)
+    return float(width), float(depth)
 
 
 def _solid_faults(content: bytes, size: tuple[float, float, float]) -> Faults:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.disc_basis import disc_basis
-from solver.loop_energy import loop_energy
+from solver.disc_basis import DiscBasis, Space, disc_basis
+from solver.loop_energy import edge_speed, scene_membrane
+from solver.membrane import Membrane
 from solver.omitted import OmittedTerm
 from solver.scene import LoopScene
 from solver.shape import LoopShape, from_expansion
+from solver.symmetry import ALIGNED, FLAT
 
 Vectors = NDArray[np.float64]
 
@@ -19,30 +21,50 @@ WRITHE_POINTS = 48
 LARGEST_WIRE_STRAIN = 0.01
 """Beyond it the wire is no longer stiff against stretch, as the model takes it to be."""
 
+_MIRRORED: tuple[Space, ...] = ("saddle", ALIGNED, FLAT)
+
+
+def smallest_principal_stress(membrane: Membrane, gradient: Vectors) -> float:
+    """Smallest principal stress, units of E_f, of deformation gradients (P, 3, 2)."""
+    stress = membrane.stress(membrane.green_lagrange(gradient))
+    along, across, shear = stress[:, 0, 0], stress[:, 1, 1], stress[:, 0, 1]
+    return float(((along + across) / 2 - np.hypot((along - across) / 2, shear)).min())
+
 
 def smallest_stress(scene: LoopScene, shape: LoopShape, degree: int) -> float:
     """Smallest principal stress of the fabric, units of E_f; negative where it would wrinkle."""
-    basis = disc_basis(degree, (0, 0))
+    basis = disc_basis(degree, ALIGNED)
     q = from_expansion(basis.unknowns, shape.expansion)
-    membrane = loop_energy(scene, basis).membrane
-    stress = membrane.stress(membrane.green_lagrange(basis.gradient @ q))
-    return float(np.linalg.eigvalsh(stress).min())
+    return smallest_principal_stress(scene_membrane(scene), basis.gradient @ q)
 
 
-def largest_wire_strain(shape: LoopShape, degree: int) -> float:
+def largest_wire_strain(scene: LoopScene, basis: DiscBasis, q: Vectors) -> float:
     """Largest stretch or shortening of the wire, as a fraction of its length."""
-    basis = disc_basis(degree, (0, 0))
-    tangent = basis.tangent @ from_expansion(basis.unknowns, shape.expansion)
-    return float(np.abs(np.linalg.norm(tangent, axis=1) - 1).max())
+    tangent = basis.tangent @ q
+    stretch = np.linalg.norm(tangent, axis=1) / edge_speed(scene, basis.angle)
+    return float(np.abs(stretch - 1).max())
 
 
 def smallest_bend_radius(shape: LoopShape, degree: int) -> float:
     """Smallest radius of curvature of the wire, in units of R."""
-    basis = disc_basis(degree, (0, 0))
+    basis = disc_basis(degree, ALIGNED)
     q = from_expansion(basis.unknowns, shape.expansion)
     tangent, second = basis.tangent @ q, basis.second @ q
     turn = np.linalg.norm(np.cross(tangent, second), axis=1)
     return float((np.linalg.norm(tangent, axis=1) ** 3 / turn).min())
+
+
+def own_curvature_excess(scene: LoopScene, basis: DiscBasis, q: Vectors) -> float:
+    """Most by which the wire's own curvature exceeds its curvature, in units of 1/R; at least 0.
+
+    Where it does, a wire that is free to turn about its own axis gains by wriggling on a scale
+    without limit: (κ − κ0)² resists no motion across a curve of less curvature. Only the wire's
+    resistance to twist would stop it.
+    """
+    tangent, second = basis.tangent @ q, basis.second @ q
+    turn = np.linalg.norm(np.cross(tangent, second), axis=1)
+    curvature = turn / np.linalg.norm(tangent, axis=1) ** 3
+    return max(0.0, scene.natural_curvature - float(curvature.min()))
 
 
 def smallest_wire_gap(shape: LoopShape) -> float:
@@ -54,9 +76,8 @@ def smallest_wire_gap(shape: LoopShape) -> float:
         return shape.width
     edge = shape.edge(EDGE_POINTS)
     apart = np.arange(EDGE_POINTS // 4, EDGE_POINTS // 2 + 1)
-    return float(
-        min(np.linalg.norm(edge - np.roll(edge, -int(k), axis=0), axis=1).min() for k in apart)
-    )
+    other = edge[(np.arange(EDGE_POINTS)[:, None] + apart) % EDGE_POINTS]
+    return float(np.linalg.norm(edge[:, None] - other, axis=2).min())
 
 
 def writhe(points: Vectors) -> float:
@@ -81,12 +102,23 @@ def writhe(points: Vectors) -> float:
     return float(np.sum(angle * sign) / (2 * np.pi))
 
 
-def looked_back(scene: LoopScene, shape: LoopShape, degree: int) -> tuple[OmittedTerm, ...]:
-    """Measure what the model of one loop leaves out and the shape alone can tell."""
-    stress = smallest_stress(scene, shape, degree)
-    gap = smallest_wire_gap(shape)
-    strain = largest_wire_strain(shape, degree)
-    turns = abs(writhe(shape.edge(WRITHE_POINTS)))
+def _writhe_of(space: Space, shape: LoopShape) -> float:
+    """Writhe of a loop; that of a shape with a mirror plane is 0."""
+    return 0.0 if space in _MIRRORED else writhe(shape.edge(WRITHE_POINTS))
+
+
+def looked_back(
+    scene: LoopScene, space: Space, basis: DiscBasis, q: Vectors, stress: float
+) -> tuple[OmittedTerm, ...]:
+    """Measure what the model of one loop leaves out and the shape alone can tell.
+
+    ``stress`` is the fabric's smallest principal stress.
+    """
+    shape = LoopShape(basis.unknowns, q)
+    overlap = max(0.0, -shape.width)
+    strain = largest_wire_strain(scene, basis, q)
+    turns = abs(_writhe_of(space, shape))
+    wriggle = own_curvature_excess(scene, basis, q)
     return (
         OmittedTerm(
             "slack fabric (tension field)",
@@ -97,11 +129,18 @@ def looked_back(scene: LoopScene, shape: LoopShape, degree: int) -> tuple[Omitte
         OmittedTerm(
             CONTACT,
             "overlap of the crests / R",
-            max(0.0, -gap),
-            matters=gap <= 0,
-            fatal=gap <= 0,
+            overlap,
+            matters=shape.width <= 0,
+            fatal=shape.width <= 0,
         ),
         OmittedTerm("twist of the wire", "writhe of the loop", turns, matters=turns > 1e-6),
+        OmittedTerm(
+            "wire's resistance to twist",
+            "natural curvature beyond the curvature / (1/R)",
+            wriggle,
+            matters=wriggle > 0,
+            fatal=wriggle > 0,
+        ),
         OmittedTerm(
             "wire's softness beyond small stretch",
             "largest wire strain",

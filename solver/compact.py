@@ -1,43 +1,38 @@
-"""Solve one loop in a compact global basis: flat if flat is stable, else the saddle.
-
-The bases are nested, so that each solve starts from the one before it; most steps are spent on the
-smallest. The height's change from basis to basis is the estimate of the error.
-"""
+"""Solve one loop in a compact global basis: flat if flat is stable, else the lowest saddle."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
-import numpy as np
-from numpy.typing import NDArray
-
-from solver.checks import looked_back
-from solver.disc_basis import DiscBasis, disc_basis
-from solver.disc_functions import DiscFunction
-from solver.equilibrium import Equilibrium
+from solver.branches import flat_state, lowest_branch, stability_floor
+from solver.checks import looked_back, smallest_principal_stress
+from solver.circle import flat_circle, saddle_circle, stays_flat, telling_degree
+from solver.disc_basis import Space
+from solver.equilibrium import Equilibrium, Kind
 from solver.errors import NotConvergedError
-from solver.flat import flat_radius, flat_shape
-from solver.loop_energy import LoopEnergy, loop_energy
-from solver.newton import Minimum, minimise
+from solver.first_guess import inextensional_saddle
+from solver.loop_energy import scene_membrane
 from solver.omitted import OmittedTerm
+from solver.refine import DEGREES, Refined
 from solver.scene import LoopScene
-from solver.shape import Expansion, LoopShape, from_expansion
-from solver.stability import lowest_eigenvalue
+from solver.shape import LoopShape
+from solver.stability import weakest_motion
+from solver.symmetry import ALIGNED, DIAGONAL
 
-Vectors = NDArray[np.float64]
+__all__ = ["DEGREES", "inextensional_saddle", "solve_loop"]
 
-DEGREES = (5, 7, 9, 11, 13, 17, 21, 25)
-"""Degrees of the successive bases, 10 to 140 unknowns."""
-
-_START_HEIGHT = 0.25
-_SOFT_WIRE = 30.0
-_ROUGHLY = 1e-2
-_GRADIENT_TOLERANCE = 1e-8
-_STABILITY_FLOOR = 1e-9
+_KINDS: dict[Space, Kind] = {
+    "saddle": Kind.SADDLE,
+    "oblique": Kind.OBLIQUE,
+    ALIGNED: Kind.ALIGNED,
+    DIAGONAL: Kind.DIAGONAL,
+}
 
 
 def solve_loop(
-    scene: LoopScene, *, tolerance: float = 1e-4, allow_unreliable: bool = False
+    scene: LoopScene,
+    *,
+    tolerance: float = 1e-4,
+    allow_unreliable: bool = False,
+    start: Equilibrium | None = None,
 ) -> Equilibrium:
     """Find the minimum of one loop's energy.
 
@@ -47,179 +42,107 @@ def solve_loop(
         The basis grows until the height changes by less than this fraction.
     allow_unreliable : bool
         Give the shape, with a ``status`` that says what is wrong, where this would raise.
+    start : Equilibrium, optional
+        That of a neighbouring scene, from which a circular loop on isotropic fabric is solved in
+        less time.
 
     Raises
     ------
     NotConvergedError
-        When no basis meets the tolerance, when the saddle is not a minimum among all shapes, or
-        when the wire runs through itself. Lesser omissions are told in `Equilibrium.omitted`.
+        When no basis meets the tolerance, when the shape is not a minimum among all shapes, or when
+        the wire runs through itself. Lesser omissions are told in `Equilibrium.omitted`.
     """
-    flat = flat_shape(scene, DEGREES[0])
-    flat_eigenvalue = lowest_eigenvalue(scene, flat, DEGREES[0])
-    if flat_eigenvalue >= -_STABILITY_FLOOR * max(1.0, scene.beta):
-        found = _flat_equilibrium(scene, flat, flat_eigenvalue)
+    if scene.isotropic_circle:
+        found = _circle(scene, tolerance, start)
     else:
-        found = _saddle_equilibrium(scene, tolerance)
+        found = _lowest_of_branches(scene, tolerance)
     if found.status != "converged" and not allow_unreliable:
         raise NotConvergedError(found.status)
     return found
 
 
-def _gradient_tolerance(scene: LoopScene) -> float:
-    """Smallest gradient that can be told from the rounding of the wire's stiff terms."""
-    return max(_GRADIENT_TOLERANCE, 1e-11 * max(scene.beta, scene.axial_stiffness))
+def _circle(scene: LoopScene, tolerance: float, start: Equilibrium | None) -> Equilibrium:
+    flat = stays_flat(scene)
+    refined = flat_circle(scene) if flat else saddle_circle(scene, tolerance, start)
+    basis, q = refined.basis, refined.unknowns
+    stress = smallest_principal_stress(scene_membrane(scene), basis.gradient @ q)
+    highest = telling_degree(scene, stress, basis.degree)
+    eigenvalue = weakest_motion(scene, refined.space, basis, q, highest).eigenvalue
+    return _equilibrium(scene, refined, eigenvalue, stress, tolerance)
 
 
-def _flat_equilibrium(scene: LoopScene, flat: LoopShape, eigenvalue: float) -> Equilibrium:
-    energy = loop_energy(scene, disc_basis(DEGREES[0], "saddle"))
-    slope = energy.derivatives(flat.coefficients)[1]
+def _lowest_of_branches(scene: LoopScene, tolerance: float) -> Equilibrium:
+    refined, weakest = flat_state(scene)
+    if weakest.eigenvalue < -stability_floor(scene):
+        refined, weakest = lowest_branch(scene, refined, tolerance)
+    gradient = refined.basis.gradient @ refined.unknowns
+    stress = smallest_principal_stress(scene_membrane(scene), gradient)
+    return _equilibrium(scene, refined, weakest.eigenvalue, stress, tolerance)
+
+
+def _equilibrium(
+    scene: LoopScene, refined: Refined, eigenvalue: float, stress: float, tolerance: float
+) -> Equilibrium:
+    basis, q = refined.basis, refined.unknowns
+    shape = LoopShape(basis.unknowns, q)
+    omitted = looked_back(scene, refined.space, basis, q, stress)
+    faults = _faults_of_solve(scene, refined, eigenvalue, tolerance)
+    buckled = refined.height != 0
     return Equilibrium(
         scene=scene,
-        shape=flat,
-        buckled=False,
-        status="converged",
-        energy_terms=energy.terms(flat.coefficients),
-        gradient_norm=float(np.linalg.norm(slope)),
-        lowest_eigenvalue=eigenvalue,
-        steps=0,
-        factorizations=0,
-        unknowns=1,
-        height_change=0.0,
-        omitted=looked_back(scene, flat, DEGREES[0]),
-    )
-
-
-def inextensional_saddle(height: float, radius: float) -> Expansion:
-    """Saddle of amplitude ``height`` whose edge keeps its length to second order.
-
-    With z = c cos 2θ on the edge, a uniform contraction c² and a slip ¼ c² sin 4θ along the edge
-    make up for the slope's lengthening 2 c² sin² 2θ.
-    """
-    edge = {1: radius - height**2, 3: -(height**2) / 8, 5: height**2 / 8}
-    one = np.ones(1)
-    out: Expansion = {}
-    for m, value in edge.items():
-        scale = float(DiscFunction(m, 0, "cos").radial(one)[0][0])
-        out[0, DiscFunction(m, 0, "cos")] = value / scale
-        out[1, DiscFunction(m, 0, "sin")] = (value if m % 4 == 1 else -value) / scale
-    rise = DiscFunction(2, 0, "cos")
-    out[2, rise] = height / float(rise.radial(one)[0][0])
-    return out
-
-
-def _start(scene: LoopScene, basis: DiscBasis) -> Minimum:
-    """Minimise roughly with a wire that may stretch a little.
-
-    The curved valley along which a stiff wire keeps its length takes many steps to follow; across a
-    soft one the way is short, and Newton's steps do the rest.
-    """
-    soft = replace(scene, axial_stiffness=min(scene.axial_stiffness, _SOFT_WIRE))
-    start = inextensional_saddle(_START_HEIGHT, flat_radius(scene))
-    return minimise(
-        loop_energy(soft, basis).derivatives,
-        from_expansion(basis.unknowns, start),
-        tolerance=_ROUGHLY,
-        radius=0.5,
-    )
-
-
-@dataclass(frozen=True)
-class _Refined:
-    """The last of a sequence of nested bases, and what all of them took."""
-
-    energy: LoopEnergy
-    shape: LoopShape
-    minimum: Minimum
-    degree: int
-    height_change: float
-    steps: int
-    factorizations: int
-
-
-def _refine(scene: LoopScene, tolerance: float) -> _Refined:
-    """Solve in one basis after the other until the height stands still."""
-    rough = _start(scene, disc_basis(DEGREES[0], "saddle"))
-    unknowns = disc_basis(DEGREES[0], "saddle").unknowns
-    shape = LoopShape(unknowns, rough.unknowns)
-    steps, factorizations = rough.steps, rough.factorizations
-    refined: list[_Refined] = []
-    for degree in DEGREES:
-        energy = loop_energy(scene, disc_basis(degree, "saddle"))
-        start = from_expansion(energy.basis.unknowns, shape.expansion)
-        minimum = minimise(
-            energy.derivatives, start, tolerance=_gradient_tolerance(scene), radius=0.5
-        )
-        steps += minimum.steps
-        factorizations += minimum.factorizations
-        height = shape.height
-        shape = _upright(LoopShape(energy.basis.unknowns, minimum.unknowns))
-        change = abs(shape.height - height) / max(shape.height, 1e-300)
-        refined.append(_Refined(energy, shape, minimum, degree, change, steps, factorizations))
-        if degree > DEGREES[0] and minimum.converged and change <= tolerance:
-            break
-    return refined[-1]
-
-
-def _saddle_equilibrium(scene: LoopScene, tolerance: float) -> Equilibrium:
-    refined = _refine(scene, tolerance)
-    eigenvalue = lowest_eigenvalue(scene, refined.shape, refined.degree)
-    omitted = looked_back(scene, refined.shape, refined.degree)
-    faults = [*_faults_of_solve(refined, eigenvalue, tolerance), *_faults_of_model(omitted)]
-    return Equilibrium(
-        scene=scene,
-        shape=refined.shape,
-        buckled=True,
-        status="; ".join(faults) or "converged",
-        energy_terms=refined.energy.terms(refined.shape.coefficients),
+        shape=shape,
+        buckled=buckled,
+        status="; ".join([*faults, *_faults_of_model(scene, omitted)]) or "converged",
+        energy_terms=refined.energy.terms(q),
         gradient_norm=refined.minimum.gradient_norm,
         lowest_eigenvalue=eigenvalue,
         steps=refined.steps,
         factorizations=refined.factorizations,
-        unknowns=refined.energy.basis.size,
+        unknowns=basis.size,
         height_change=refined.height_change,
         omitted=omitted,
+        kind=_KINDS[refined.space] if buckled else Kind.FLAT,
+        degree=basis.degree,
     )
 
 
-def _faults_of_solve(refined: _Refined, eigenvalue: float, tolerance: float) -> list[str]:
+def _remedy(scene: LoopScene) -> str:
+    """Say what would bring a scene nearer to those that can be solved."""
+    lower = ["strain", "axial_stiffness"]
+    lower += ["axis_ratio"] if scene.axis_ratio > 1 else []
+    lower += ["natural_curvature"] if scene.natural_curvature > 0 else []
+    return f"raise beta, or lower {' or '.join(lower)}"
+
+
+def _faults_of_solve(
+    scene: LoopScene, refined: Refined, eigenvalue: float, tolerance: float
+) -> list[str]:
     """Say what keeps the last basis' stationary point from being the answer."""
-    minimum = refined.minimum
+    minimum, remedy = refined.minimum, _remedy(scene)
     faults: list[str] = []
     if not minimum.converged:
         faults.append(
-            f"not converged: gradient norm {minimum.gradient_norm:.1e} after {refined.steps} steps;"
-            " raise beta or lower strain"
+            f"not converged: gradient norm {minimum.gradient_norm:.1e} after {refined.steps} "
+            f"steps; {remedy}"
         )
     elif refined.height_change > tolerance:
         faults.append(
             f"not converged: the height still changes by {refined.height_change:.1e} from basis to "
-            f"basis ({refined.energy.basis.size} unknowns); a tolerance above that would pass"
+            f"basis ({refined.basis.size} unknowns); a tolerance above that would pass, or {remedy}"
         )
-    if eigenvalue < -_STABILITY_FLOOR * max(1.0, refined.energy.rod.axial_stiffness):
+    if eigenvalue < -stability_floor(scene):
         faults.append(
-            f"the saddle is not a minimum (lowest eigenvalue {eigenvalue:.1e}): the fabric "
-            "wrinkles or the loop folds; raise beta or lower strain"
+            f"the shape is not a minimum (lowest eigenvalue {eigenvalue:.1e}): the fabric "
+            f"wrinkles or the loop folds; {remedy}"
         )
     return faults
 
 
-def _faults_of_model(omitted: tuple[OmittedTerm, ...]) -> list[str]:
+def _faults_of_model(scene: LoopScene, omitted: tuple[OmittedTerm, ...]) -> list[str]:
     """Say which omissions the shape does not bear."""
     return [
         f"{left.term} is left out, and the shape is wrong without ({left.measure}: "
-        f"{left.value:.2g}); "
-        "raise beta or lower strain"
+        f"{left.value:.2g}); {_remedy(scene)}"
         for left in omitted
         if left.fatal
     ]
-
-
-def _upright(shape: LoopShape) -> LoopShape:
-    """Mirror the saddle in z = 0, if need be, so that its crests lie on the x axis."""
-    if shape.height >= 0:
-        return shape
-    mirrored = {
-        (component, f): value if component < 2 else -value
-        for (component, f), value in shape.expansion.items()
-    }
-    return LoopShape(shape.unknowns, from_expansion(shape.unknowns, mirrored))

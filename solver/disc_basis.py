@@ -7,48 +7,89 @@ which Gauss points in r² and equally spaced angles leave no error.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.symmetry import Parity, Unknown, mirror_class, saddle
+from solver.symmetry import (
+    Mirrors,
+    Symmetry,
+    Unknown,
+    displacements,
+    mirror_symmetry,
+    oblique,
+    saddle,
+)
 
 Vectors = NDArray[np.float64]
-Space = Literal["saddle"] | tuple[Parity, Parity]
+Space = Literal["saddle", "oblique"] | Mirrors | Symmetry
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DiscBasis:
     """Linear maps from n unknowns to derivatives of the position.
 
     Attributes
     ----------
+    degree : int
     unknowns : tuple of Unknown
         What each coefficient moves.
     gradient : array (P, 3, 2, n)
         Derivatives of the position along x and y at P points of the disc.
     area : array (P,)
         Weights of these points; they add up to π.
-    tangent, second : array (Q, 3, n)
+    edge : array (Q, 6, n)
         First and second derivative of the position along the edge at Q points.
+    angle : array (Q,)
+        Where on the edge these points lie.
     arc : array (Q,)
         Weights of these points; they add up to 2π.
     """
 
+    degree: int
     unknowns: tuple[Unknown, ...]
     gradient: Vectors
     area: Vectors
-    tangent: Vectors
-    second: Vectors
+    edge: Vectors
+    angle: Vectors
     arc: Vectors
 
     @property
     def size(self) -> int:
         """Number of unknowns."""
         return len(self.unknowns)
+
+    @property
+    def tangent(self) -> Vectors:
+        """First derivative of the position along the edge, (Q, 3, n)."""
+        return self.edge[:, :3]
+
+    @property
+    def second(self) -> Vectors:
+        """Second derivative of the position along the edge, (Q, 3, n)."""
+        return self.edge[:, 3:]
+
+    def along_edge(self, q: Vectors) -> Vectors:
+        """First and second derivative (…, Q, 6) along the edge of shapes (…, n)."""
+        flat = q @ self.edge.reshape(-1, self.size).T
+        return flat.reshape(*q.shape[:-1], -1, 6)
+
+    def up_to(self, highest: int) -> DiscBasis:
+        """Give the subspace of polynomials up to a degree, at the same points."""
+        kept = [
+            i
+            for i, unknown in enumerate(self.unknowns)
+            if all(term.function.degree <= highest for term in unknown)
+        ]
+        return replace(
+            self,
+            unknowns=tuple(self.unknowns[i] for i in kept),
+            gradient=np.ascontiguousarray(self.gradient[..., kept]),
+            edge=np.ascontiguousarray(self.edge[..., kept]),
+        )
 
 
 def position_map(unknowns: tuple[Unknown, ...], r: Vectors, theta: Vectors) -> Vectors:
@@ -63,12 +104,10 @@ def position_map(unknowns: tuple[Unknown, ...], r: Vectors, theta: Vectors) -> V
 def _edge_map(unknowns: tuple[Unknown, ...], theta: Vectors, derivative: int) -> Vectors:
     """Linear map (n_points, 3, n) from unknowns to a derivative along the edge."""
     out = np.zeros((len(theta), 3, len(unknowns)))
-    one = np.ones(1)
     for i, unknown in enumerate(unknowns):
         for term in unknown:
-            radial = term.function.radial(one)[0]
             out[:, term.component, i] += (
-                term.weight * radial * term.function.angular(theta, derivative)
+                term.weight * term.function.edge_value * term.function.angular(theta, derivative)
             )
     return out
 
@@ -93,29 +132,56 @@ def _sector_angles(count: int, sectors: int) -> Vectors:
     return np.linspace(0.5, inside - 0.5, inside) * (2 * np.pi / (inside * sectors))
 
 
-@lru_cache(maxsize=64)
+def _unknowns_and_sectors(degree: int, space: Space) -> tuple[tuple[Unknown, ...], int]:
+    """List a space's unknowns, and the equal sectors of the disc that hold equal energies."""
+    if space == "saddle":
+        return saddle(degree), 8
+    if space == "oblique":
+        return oblique(degree), 2
+    symmetry = space if isinstance(space, Symmetry) else mirror_symmetry(*space)
+    return displacements(degree, symmetry), 4 // len(symmetry.in_plane)
+
+
+@lru_cache(maxsize=128)
 def disc_basis(degree: int, space: Space) -> DiscBasis:
     """Tabulate a space of shapes; ``degree`` (odd) bounds its polynomials.
 
-    ``space`` is ``"saddle"``, or the mirror class (odd_in_x, odd_in_y). A saddle's energy is
-    integrated over an eighth of the disc, that of mirror classes over a quarter.
+    ``space`` is ``"saddle"``, ``"oblique"``, a mirror class (odd_in_x, odd_in_y) or a symmetry.
+    Energies are integrated over the part of the disc that the symmetry repeats: an eighth for a
+    saddle, a quarter where two mirrors or half-turns are left, half of it with one half-turn.
     """
-    if space == "saddle":
-        unknowns, sectors = saddle(degree), 8
-    else:
-        unknowns, sectors = mirror_class(degree, *space), 4
+    unknowns, sectors = _unknowns_and_sectors(degree, space)
     # gradients have degree up to `degree`, the density four times that
     theta = _sector_angles(4 * degree + 1, sectors)
     nodes, weights = np.polynomial.legendre.leggauss(degree + 1)
     radius = np.sqrt((nodes + 1) / 2)
     r, angle = np.meshgrid(radius, theta, indexing="ij")
-    area = np.repeat(weights / 2 * np.pi / len(theta), len(theta))
     edge = _sector_angles(6 * (degree + 1), sectors)
     return DiscBasis(
+        degree=degree,
         unknowns=unknowns,
         gradient=_gradient_map(unknowns, r.ravel(), angle.ravel()),
-        area=area,
-        tangent=_edge_map(unknowns, edge, 1),
-        second=_edge_map(unknowns, edge, 2),
+        area=np.repeat(weights / 2 * np.pi / len(theta), len(theta)),
+        edge=np.concatenate([_edge_map(unknowns, edge, 1), _edge_map(unknowns, edge, 2)], axis=1),
+        angle=edge,
         arc=np.full(len(edge), 2 * np.pi / len(edge)),
     )
+
+
+@lru_cache(maxsize=256)
+def transfer(source: DiscBasis, target: DiscBasis) -> Vectors:
+    """Linear map (n_target, n_source) to the nearest shape of another space.
+
+    Exact where the shape lies in the target space; the functions are orthonormal over the disc.
+    """
+    column = {
+        (term.component, term.function): (i, term.weight)
+        for i, unknown in enumerate(source.unknowns)
+        for term in unknown
+    }
+    out = np.zeros((target.size, source.size))
+    for k, unknown in enumerate(target.unknowns):
+        for term in unknown:
+            i, weight = column.get((term.component, term.function), (0, 0.0))
+            out[k, i] += term.weight * weight
+    return out

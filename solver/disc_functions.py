@@ -6,6 +6,7 @@ Here they are scaled so that the mean of the square over the disc is 1.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -30,10 +31,15 @@ class DiscFunction:
         """Degree of the polynomial."""
         return self.m + 2 * self.k
 
+    @property
+    def edge_value(self) -> float:
+        """Radial factor at the edge, r = 1, where P_k^(0,m) is 1."""
+        return math.sqrt((1 if self.m == 0 else 2) * (self.degree + 1))
+
     def radial(self, r: Vectors) -> tuple[Vectors, Vectors]:
         """Radial factor and its derivative at ``r``, scaled to mean square 1 over the disc."""
         m, k = self.m, self.k
-        norm = np.sqrt((1 if m == 0 else 2) * (self.degree + 1))
+        norm = self.edge_value
         x = 2 * r * r - 1
         jacobi = eval_jacobi(k, 0, m, x)
         # d/dx P_k^(a,b) = (k+a+b+1)/2 P_(k-1)^(a+1,b+1)   (DLMF 18.9.15)

@@ -3,10 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from solver.omitted import OmittedTerm
 from solver.scene import LoopScene
 from solver.shape import LoopShape
+
+
+class Kind(StrEnum):
+    """Symmetry of a loop's shape.
+
+    ``saddle``: two mirrors, and a quarter turn that changes z into −z. ``aligned``: mirrors in x
+    and in y. ``diagonal``: half-turns about x, y and z. ``oblique``: a half-turn about z.
+    """
+
+    FLAT = "flat"
+    SADDLE = "saddle"
+    ALIGNED = "aligned"
+    DIAGONAL = "diagonal"
+    OBLIQUE = "oblique"
 
 
 @dataclass(frozen=True)
@@ -34,6 +49,10 @@ class Equilibrium:
     height_change : float
         Relative change of the height from the basis before the last; 0 for a flat loop.
     omitted : tuple of OmittedTerm
+    kind : Kind
+        The shape's symmetry.
+    degree : int
+        Of the last basis' polynomials.
     """
 
     scene: LoopScene
@@ -48,6 +67,8 @@ class Equilibrium:
     unknowns: int
     height_change: float
     omitted: tuple[OmittedTerm, ...]
+    kind: Kind
+    degree: int
 
     @property
     def energy(self) -> float:

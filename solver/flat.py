@@ -1,7 +1,9 @@
-"""The flat state of a loop: the disc, a little smaller as the wire gives way."""
+"""The flat state of a circular loop on isotropic fabric: the disc, a little smaller."""
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from solver.disc_functions import DiscFunction
@@ -10,12 +12,14 @@ from solver.scene import LoopScene
 from solver.shape import LoopShape, from_expansion
 from solver.symmetry import saddle
 
+Vectors = NDArray[np.float64]
+
 
 def flat_radius(scene: LoopScene) -> float:
     """Radius of the flat loop in equilibrium, in units of the radius it was laid with.
 
     Uniform contraction is an exact solution: it minimises
-    U(a) = π (2 c₁ + 4 c₂) e²/(1+ε)² + 2πβ/a + π k (a − 1)², e = ((1+ε)² a² − 1)/2,
+    U(a) = π (2 c₁ + 4 c₂) e²/(1+ε)² + 2πβ a (1/a − κ0)² + π k (a − 1)², e = ((1+ε)² a² − 1)/2,
     with c₁, c₂ the coefficients of the density.
     """
     c1, c2 = density_coefficients(scene.poisson, scene.reading)
@@ -23,8 +27,8 @@ def flat_radius(scene: LoopScene) -> float:
 
     def slope(a: float) -> float:
         fabric = (2 * c1 + 4 * c2) * (stretch * a * a - 1) * a
-        wire = -2 * scene.beta / a**2 + 2 * scene.axial_stiffness * (a - 1)
-        return fabric + wire
+        bending = 2 * scene.beta * (scene.natural_curvature**2 - 1 / a**2)
+        return fabric + bending + 2 * scene.axial_stiffness * (a - 1)
 
     # the slope is negative near 0 and positive where the wire's stretch outweighs its bending
     return float(
@@ -46,3 +50,17 @@ def flat_shape(scene: LoopScene, degree: int) -> LoopShape:
             },
         ),
     )
+
+
+def rising_stiffness(scene: LoopScene, waves: Vectors) -> Vectors:
+    """Second variation of the flat state along z = r^n cos nθ, n = ``waves`` (N,), exactly.
+
+    Harmonic functions are the lowest motions out of the plane, since the flat fabric's tension S is
+    the same everywhere. The energy is π c² n (n − 1) (n (n + 1) β (1/a³ − κ0/a²) − S/2), a being
+    the flat radius; here it is scaled to a mean square of 1 over the disc.
+    """
+    a, n = flat_radius(scene), waves
+    c1, c2 = density_coefficients(scene.poisson, scene.reading)
+    tension = (c1 + 2 * c2) * (((1 + scene.strain) * a) ** 2 - 1)
+    bending = scene.beta * (1 / a - scene.natural_curvature) / a**2
+    return 4 * np.pi * (n + 1) * n * (n - 1) * (n * (n + 1) * bending - tension / 2)

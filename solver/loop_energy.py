@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from solver.disc_basis import DiscBasis
 from solver.membrane import Membrane
+from solver.quartic import LARGEST, FabricPolynomial, shape_table
 from solver.reading import density_coefficients
 from solver.rod import Rod
 from solver.scene import LoopScene
@@ -18,16 +19,30 @@ Vectors = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LoopEnergy:
-    """Fabric and wire of a scene, on shapes spanned by a basis."""
+    """Fabric and wire of a scene, on shapes spanned by a basis.
+
+    Attributes
+    ----------
+    membrane : Membrane
+    rod : Rod
+    basis : DiscBasis
+    speed : array (Q,) or float
+        Length of unstretched wire per angle at the basis' points of the edge.
+    polynomial : FabricPolynomial or None
+        The fabric's energy tabulated, where the basis is small and all directions are alike.
+    """
 
     membrane: Membrane
     rod: Rod
     basis: DiscBasis
+    speed: Vectors | float = 1.0
+    polynomial: FabricPolynomial | None = None
 
     def terms(self, q: Vectors) -> dict[str, float]:
         """Energy by term, units of E_f t R², at unknowns ``q`` (n,)."""
         basis = self.basis
-        bending, stretch = self.rod.energies(basis.tangent @ q, basis.second @ q, basis.arc)
+        tangent, second = basis.tangent @ q, basis.second @ q
+        bending, stretch = self.rod.energies(tangent, second, basis.arc, self.speed)
         return {
             "fabric stretch": self.membrane.energy(basis.gradient @ q, basis.area),
             "wire bending": bending,
@@ -38,12 +53,20 @@ class LoopEnergy:
         """Energy at unknowns ``q`` (n,)."""
         return sum(self.terms(q).values())
 
-    def derivatives(self, q: Vectors) -> tuple[float, Vectors, Vectors]:
-        """Energy, gradient (n,) and Hessian (n, n) at unknowns ``q`` (n,)."""
-        return self.derivatives_around(self.basis.gradient @ q, *self._edge(q))
+    def derivatives(
+        self, q: Vectors, force: Vectors | None = None
+    ) -> tuple[float, Vectors, Vectors]:
+        """Energy, gradient (n,) and Hessian (n, n) at unknowns ``q`` (n,).
 
-    def _edge(self, q: Vectors) -> tuple[Vectors, Vectors]:
-        return self.basis.tangent @ q, self.basis.second @ q
+        The Hessian takes the wire's tension to be ``force`` (Q,), where that is given.
+        """
+        basis = self.basis
+        wire = self.rod.derivatives(basis.along_edge(q), basis.arc, basis.edge, self.speed, force)
+        if self.polynomial is None:
+            fabric = self.membrane.derivatives(basis.gradient @ q, basis.area, basis.gradient)
+        else:
+            fabric = self.polynomial.derivatives(q)
+        return float(fabric[0] + wire[0]), fabric[1] + wire[1], fabric[2] + wire[2]
 
     def derivatives_around(
         self, gradient: Vectors, tangent: Vectors, second: Vectors
@@ -59,11 +82,33 @@ class LoopEnergy:
         """
         basis = self.basis
         fabric = self.membrane.derivatives(gradient, basis.area, basis.gradient)
-        wire = self.rod.derivatives(tangent, second, basis.arc, basis.tangent, basis.second)
-        return fabric[0] + wire[0], fabric[1] + wire[1], fabric[2] + wire[2]
+        edge = np.concatenate([tangent, second], axis=1)
+        wire = self.rod.derivatives(edge, basis.arc, basis.edge, self.speed)
+        return float(fabric[0] + wire[0]), fabric[1] + wire[1], fabric[2] + wire[2]
+
+
+def scene_membrane(scene: LoopScene) -> Membrane:
+    """Fabric of a scene."""
+    a, b = density_coefficients(scene.poisson, scene.reading)
+    return Membrane(scene.strain, a, b, scene.semi_axes, scene.moduli)
+
+
+def scene_rod(scene: LoopScene) -> Rod:
+    """Wire of a scene."""
+    return Rod(scene.beta, scene.axial_stiffness, scene.natural_curvature)
+
+
+def edge_speed(scene: LoopScene, angle: Vectors) -> Vectors | float:
+    """Length of unstretched wire per angle of the disc's edge."""
+    along, across = scene.semi_axes
+    return 1.0 if along == across else np.hypot(along * np.sin(angle), across * np.cos(angle))
 
 
 def loop_energy(scene: LoopScene, basis: DiscBasis) -> LoopEnergy:
     """Energy of a scene on the shapes of a basis."""
-    a, b = density_coefficients(scene.poisson, scene.reading)
-    return LoopEnergy(Membrane(scene.strain, a, b), Rod(scene.beta, scene.axial_stiffness), basis)
+    membrane = scene_membrane(scene)
+    polynomial = None
+    if scene.isotropic_circle and basis.size <= LARGEST:
+        polynomial = FabricPolynomial(shape_table(basis), membrane.strain, membrane.a, membrane.b)
+    speed = edge_speed(scene, basis.angle)
+    return LoopEnergy(membrane, scene_rod(scene), basis, speed, polynomial)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,10 @@ Vectors = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Membrane:
-    """Fabric of which every line was stretched by (1 + strain) to lie flat in the unit disc.
+    """Fabric of which every line was stretched by (1 + strain) to lie flat in the loop.
+
+    Points of the flat ellipse are those of the unit disc, scaled by its semi-axes; deformation
+    gradients and areas are taken relative to the unit disc.
 
     Attributes
     ----------
@@ -20,28 +24,54 @@ class Membrane:
         ε.
     a, b : float
         Coefficients of w = a Tr(E²) + b (Tr E)², from `solver.reading.density_coefficients`.
+    semi_axes : tuple of float
+        Of the flat loop along x and y.
+    moduli : tuple of float
+        Factors E1, E2 of an orthotropic fabric: the stiffness along x is 2(a+b) E1, that along y
+        2(a+b) E2, that in shear a √(E1 E2), and what couples the two directions stays 2b.
     """
 
     strain: float
     a: float
     b: float
+    semi_axes: tuple[float, float] = (1.0, 1.0)
+    moduli: tuple[float, float] = (1.0, 1.0)
+
+    @property
+    def stretch(self) -> Vectors:
+        """Factors (2,) by which derivatives along the unit disc's x and y grow."""
+        return (1 + self.strain) / np.array(self.semi_axes)
+
+    @property
+    def stiffness(self) -> Vectors:
+        """Matrix (3, 3) from the strains E11, E22, 2 E12 to the stresses S11, S22, S12."""
+        along, across = self.moduli
+        q, coupling = 2 * (self.a + self.b), 2 * self.b
+        shear = self.a * math.sqrt(along * across)
+        return np.array([[q * along, coupling, 0], [coupling, q * across, 0], [0, 0, shear]])
 
     def green_lagrange(self, gradient: Vectors) -> Vectors:
-        """Strain E, (…, 2, 2), of deformation gradients (…, 3, 2) relative to the flat disc."""
-        stretched = (1 + self.strain) ** 2 * np.swapaxes(gradient, -1, -2) @ gradient
-        return (stretched - np.eye(2)) / 2
+        """Strain E, (…, 2, 2), of deformation gradients (…, 3, 2) relative to the unit disc."""
+        stretched = gradient * self.stretch
+        return (np.swapaxes(stretched, -1, -2) @ stretched - np.eye(2)) / 2
 
     def stress(self, strain: Vectors) -> Vectors:
         """Second Piola–Kirchhoff stress ∂w/∂E, (…, 2, 2), in units of E_f."""
-        trace = np.trace(strain, axis1=-2, axis2=-1)[..., None, None]
-        return 2 * self.a * strain + 2 * self.b * trace * np.eye(2)
+        listed = np.stack(
+            [strain[..., 0, 0], strain[..., 1, 1], strain[..., 0, 1] + strain[..., 1, 0]], axis=-1
+        )
+        listed = listed @ self.stiffness
+        return listed[..., [[0, 2], [2, 1]]]
+
+    def _rest(self, area: Vectors) -> Vectors:
+        """Unstretched areas of areas of the unit disc."""
+        return area * (math.prod(self.semi_axes) / (1 + self.strain) ** 2)
 
     def energy(self, gradient: Vectors, area: Vectors) -> float:
-        """∫ w dA0 over points with deformation gradients (P, 3, 2) and flat areas (P,)."""
+        """∫ w dA0 over points with deformation gradients (P, 3, 2) and disc areas (P,)."""
         strain = self.green_lagrange(gradient)
-        trace = np.trace(strain, axis1=-2, axis2=-1)
-        density = self.a * np.sum(strain * strain, axis=(-2, -1)) + self.b * trace * trace
-        return float(np.sum(area * density) / (1 + self.strain) ** 2)
+        density = np.sum(strain * self.stress(strain), axis=(-2, -1)) / 2
+        return float(self._rest(area) @ density)
 
     def derivatives(
         self, gradient: Vectors, area: Vectors, maps: Vectors
@@ -52,23 +82,24 @@ class Membrane:
         ----------
         gradient : array (P, 3, 2)
         area : array (P,)
-            Flat areas.
+            Areas of the unit disc.
         maps : array (P, 3, 2, n)
         """
-        n = maps.shape[-1]
+        points, n = len(area), maps.shape[-1]
+        rest, metric = self._rest(area), np.outer(self.stretch, self.stretch)
         strain = self.green_lagrange(gradient)
         stress = self.stress(strain)
-        # dE_jk/dq = (1+ε)²/2 (F^T G + G^T F), and the (1+ε)² cancels that of dA0 = dA/(1+ε)²
-        first_piola = gradient @ stress
-        slope = (area[:, None, None] * first_piola).ravel() @ maps.reshape(-1, n)
-        turned = np.swapaxes(gradient, -1, -2) @ maps.reshape(len(area), 3, 2 * n)
-        turned = turned.reshape(len(area), 2, 2, n)
-        strain_slope = (turned + np.swapaxes(turned, 1, 2)) / 2
-        root = np.sqrt(2 * self.a * area)[:, None, None, None]
-        shear = (root * strain_slope).reshape(-1, n)
-        swell = strain_slope[:, 0, 0] + strain_slope[:, 1, 1]
-        material = shear.T @ shear + swell.T @ ((2 * self.b * area)[:, None] * swell)
-        weighted = area[:, None, None, None] * np.einsum("pjk,pckn->pcjn", stress, maps)
-        geometric = maps.reshape(-1, n).T @ weighted.reshape(-1, n)
-        hessian = (1 + self.strain) ** 2 * material + geometric
-        return self.energy(gradient, area), slope, (hessian + hessian.T) / 2
+        energy = float(rest @ np.sum(strain * stress, axis=(-2, -1)) / 2)
+        weighted_stress = rest[:, None, None] * metric * stress
+        slope = (gradient @ weighted_stress).ravel() @ maps.reshape(-1, n)
+        # dE_jk/dq = (F^T G + G^T F)/2, rows and columns scaled by the stretch
+        turned = np.swapaxes(gradient, -1, -2) @ maps.reshape(points, 3, 2 * n)
+        turned = turned.reshape(points, 2, 2, n) * metric[:, :, None]
+        strain_slope = np.stack(
+            [turned[:, 0, 0], turned[:, 1, 1], turned[:, 0, 1] + turned[:, 1, 0]], axis=1
+        )
+        stiff = (rest[:, None, None] * self.stiffness) @ strain_slope
+        material = strain_slope.reshape(-1, n).T @ stiff.reshape(-1, n)
+        geometric = maps.reshape(-1, n).T @ (weighted_stress[:, None] @ maps).reshape(-1, n)
+        hessian = material + geometric
+        return energy, slope, (hessian + hessian.T) / 2

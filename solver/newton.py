@@ -8,7 +8,7 @@ hand, so that it leaves saddle points along their negative directions (Moré and
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +49,14 @@ class Minimum:
     def lowest_eigenvalue(self) -> float:
         """Of the Hessian."""
         return float(np.linalg.eigvalsh(self.hessian)[0])
+
+    def after(self, earlier: Minimum) -> Minimum:
+        """Give the same with the steps of an earlier stage added."""
+        return replace(
+            self,
+            steps=self.steps + earlier.steps,
+            factorizations=self.factorizations + earlier.factorizations,
+        )
 
 
 def trust_step(eigenvalues: Vectors, slope: Vectors, radius: float) -> Vectors:

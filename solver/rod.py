@@ -9,78 +9,150 @@ from numpy.typing import NDArray
 
 Vectors = NDArray[np.float64]
 
+_STRAIGHT = 1e-12
+"""Least sin² of the angle from x' to x'' where the wire's own curvature asks for a direction."""
+
+_METRIC = np.array([[0, 2], [2, 1]])
+_METRIC_FACTOR = np.array([[2.0, 1.0], [1.0, 2.0]])
+"""2 f_a on x'·x', 2 f_b on x''·x'' and f_c on x'·x'', of slopes listed as (f_a, f_b, f_c)."""
+
 
 @dataclass(frozen=True)
 class Rod:
-    """A wire along a curve x(s), s being arclength when it is not stretched.
+    """A wire along a curve x(θ) whose length is ``speed`` dθ when it is not stretched.
 
-    Bending energy β ∮ κ² dl and stretch energy (k/2) ∮ (|x'| − 1)² ds.
+    Bending energy β ∮ (κ − κ0)² dl and stretch energy (k/2) ∮ (λ − 1)² ds, λ = |x'|/speed. The wire
+    is free to turn about its own axis, so that its natural curvature κ0 points where κ does.
+
+    Numbers may be arrays (B, 1), one for each of many wires.
     """
 
-    beta: float
-    axial_stiffness: float
+    beta: float | Vectors
+    axial_stiffness: float | Vectors
+    natural_curvature: float = 0.0
 
-    def _densities(self, a: Vectors, b: Vectors, c: Vectors) -> tuple[Vectors, Vectors]:
-        """Bending and stretch energy per unit of s; a = x'·x', b = x''·x'', c = x'·x''.
-
-        κ² dl/ds = |x' × x''|² / |x'|⁵ = (a b − c²) a^(−5/2).
-        """
-        bending = self.beta * (a * b - c * c) * a**-2.5
-        return bending, self.axial_stiffness / 2 * (np.sqrt(a) - 1) ** 2
-
-    def energies(self, tangent: Vectors, second: Vectors, arc: Vectors) -> tuple[float, float]:
-        """Bending and stretch energy of points with derivatives (Q, 3) and weights (Q,)."""
-        bending, stretch = self._densities(*_invariants(tangent, second))
-        return float(arc @ bending), float(arc @ stretch)
+    def energies(
+        self, tangent: Vectors, second: Vectors, arc: Vectors, speed: Vectors | float = 1.0
+    ) -> tuple[float, float]:
+        """Bending and stretch energy of points with x', x'' (Q, 3) and weights dθ (Q,)."""
+        a, b, c = _invariants(tangent, second)
+        kappa = np.sqrt(np.maximum(a * b - c * c, 0) / a**3)
+        root = np.sqrt(a)
+        bending = self.beta * (kappa - self.natural_curvature) ** 2 * root
+        stretch = self.axial_stiffness / 2 * (root / speed - 1) ** 2 * speed
+        return float(bending @ arc), float(stretch @ arc)
 
     def derivatives(
         self,
-        tangent: Vectors,
-        second: Vectors,
+        edge: Vectors,
         arc: Vectors,
-        tangent_map: Vectors,
-        second_map: Vectors,
-    ) -> tuple[float, Vectors, Vectors]:
-        """Energy, gradient (n,) and Hessian (n, n) in unknowns that move the derivatives linearly.
+        edge_map: Vectors,
+        speed: Vectors | float = 1.0,
+        force: Vectors | None = None,
+    ) -> tuple[Vectors, Vectors, Vectors]:
+        """Energy, gradient (…, n) and Hessian (…, n, n) in unknowns q with ``edge = edge_map @ q``.
 
         Parameters
         ----------
-        tangent, second : array (Q, 3)
+        edge : array (…, Q, 6)
+            x' and x'' at Q points.
         arc : array (Q,)
-        tangent_map, second_map : array (Q, 3, n)
+            Weights dθ.
+        edge_map : array (Q, 6, n)
+        speed : array (Q,), optional
+            Length of wire per θ.
+        force : array (…, Q), optional
+            The wire's tension as the Hessian is to take it, instead of that of the stretch.
         """
-        n = tangent_map.shape[-1]
-        a, b, c = _invariants(tangent, second)
-        beta, k = self.beta, self.axial_stiffness
-        # first and second derivatives of the densities by the invariants
-        f_a = beta * (-1.5 * b * a**-2.5 + 2.5 * c * c * a**-3.5) + k / 2 * (1 - a**-0.5)
-        f_b = beta * a**-1.5
-        f_c = -2 * beta * c * a**-2.5
-        f_aa = beta * (3.75 * b * a**-3.5 - 8.75 * c * c * a**-4.5) + k / 4 * a**-1.5
-        f_ab = -1.5 * beta * a**-2.5
-        f_ac = 5 * beta * c * a**-3.5
-        f_cc = -2 * beta * a**-2.5
-        # slopes of the invariants, each (Q, n)
-        a_q = 2 * np.einsum("qc,qcn->qn", tangent, tangent_map)
-        b_q = 2 * np.einsum("qc,qcn->qn", second, second_map)
-        c_q = np.einsum("qc,qcn->qn", tangent, second_map)
-        c_q += np.einsum("qc,qcn->qn", second, tangent_map)
-        slope = (arc * f_a) @ a_q + (arc * f_b) @ b_q + (arc * f_c) @ c_q
+        n, batch = edge_map.shape[-1], edge.shape[:-2]
+        pair = edge.reshape(*edge.shape[:-1], 2, 3)
+        gram = pair @ np.swapaxes(pair, -1, -2)
+        a, b, c = gram[..., 0, 0], gram[..., 1, 1], gram[..., 0, 1]
+        value, slope, curvature = self._bending(a, b, c)
+        stretch, by_a, tension = self._stretch(a, speed)
+        slope[..., 0] += by_a
+        slope *= arc[:, None]
+        turn = slope[..., _METRIC] * _METRIC_FACTOR
+        if force is not None:
+            turn[..., 0, 0] += arc * (force - tension) / np.sqrt(a)
+            tension = force
+        curvature[..., 0, 0] += (self.axial_stiffness / speed - tension / np.sqrt(a)) / (4 * a)
+        curvature *= arc[:, None, None]
+        # slopes of a, b and c by the unknowns
+        product = pair[..., None, :, :] @ edge_map.reshape(-1, 2, 3, n)
+        rows = np.empty((*edge.shape[:-1], 3, n))
+        np.multiply(product[..., 0, 0, :], 2, out=rows[..., 0, :])
+        np.multiply(product[..., 1, 1, :], 2, out=rows[..., 1, :])
+        np.add(product[..., 0, 1, :], product[..., 1, 0, :], out=rows[..., 2, :])
+        listed = rows.reshape(*batch, -1, n)
+        gradient = (slope.reshape(*batch, 1, -1) @ listed)[..., 0, :]
+        bent = (curvature @ rows).reshape(*batch, -1, n)
+        # and their second derivatives
+        turned = (turn @ edge_map.reshape(-1, 2, 3 * n)).reshape(*batch, -1, n)
+        hessian = np.swapaxes(listed, -1, -2) @ bent + edge_map.reshape(-1, n).T @ turned
+        return (value + stretch) @ arc, gradient, hessian
 
-        def product(weight: Vectors, left: Vectors, right: Vectors) -> Vectors:
-            scaled = (arc * weight).reshape(-1, *(1,) * (right.ndim - 1)) * right
-            return left.reshape(-1, n).T @ scaled.reshape(-1, n)
+    def _stretch(self, a: Vectors, speed: Vectors | float) -> tuple[Vectors, Vectors, Vectors]:
+        """(k/2)(√a/speed − 1)² speed, its slope by a, and the tension k (√a/speed − 1)."""
+        root = np.sqrt(a)
+        excess = root / speed - 1
+        tension = self.axial_stiffness * excess
+        return tension * excess * speed / 2, tension / (2 * root), tension
 
-        half = (
-            product(f_aa / 2, a_q, a_q)
-            + product(f_ab, a_q, b_q)
-            + product(f_ac, a_q, c_q)
-            + product(f_cc / 2, c_q, c_q)
-            + product(f_a, tangent_map, tangent_map)
-            + product(f_b, second_map, second_map)
-            + product(f_c, tangent_map, second_map)
+    def force_ahead(
+        self, tangent: Vectors, change: Vectors, speed: Vectors | float = 1.0
+    ) -> Vectors:
+        """Tension (…, Q) of a wire with x' (…, Q, 3), to first order in a change of x'."""
+        length = np.sqrt(np.sum(tangent * tangent, axis=-1))
+        longer = np.sum(tangent * change, axis=-1) / length
+        return self.axial_stiffness * ((length + longer) / speed - 1)
+
+    def _bending(self, a: Vectors, b: Vectors, c: Vectors) -> tuple[Vectors, Vectors, Vectors]:
+        """β (κ − κ0)² dl/dθ, κ² dl/dθ = (a b − c²) a^(−5/2), with its slope and curvature.
+
+        Derivatives (…, 3) and (…, 3, 3) are by a = x'·x', b = x''·x'' and c = x'·x''.
+        """
+        slope, curvature = np.empty((*a.shape, 3)), np.zeros((*a.shape, 3, 3))
+        bp = self.beta * a**-2.5
+        over, along = bp / a, c * c / a
+        slope[..., 0] = bp * (2.5 * along - 1.5 * b)
+        slope[..., 1] = bp * a
+        mixed = np.multiply(bp, -2 * c, out=slope[..., 2])
+        curvature[..., 0, 0] = over * (3.75 * b - 8.75 * along)
+        curvature[..., 0, 1] = curvature[..., 1, 0] = -1.5 * bp
+        curvature[..., 0, 2] = curvature[..., 2, 0] = -2.5 * mixed / a
+        curvature[..., 2, 2] = -2 * bp
+        value = bp * (a * b - c * c)
+        if self.natural_curvature == 0:
+            return value, slope, curvature
+        own = self._natural(a, b, c)
+        return value + own[0], slope + own[1], curvature + own[2]
+
+    def _natural(self, a: Vectors, b: Vectors, c: Vectors) -> tuple[Vectors, Vectors, Vectors]:
+        """β (κ0² √a − 2 κ0 h/a), h = |x' × x''|, with its slope and curvature by a, b and c."""
+        k0, beta = self.natural_curvature, self.beta
+        h = np.sqrt(np.maximum(a * b - c * c, _STRAIGHT * a * b))
+        zero = np.zeros_like(a)
+        d1 = np.stack([b, a, -2 * c], axis=-1) / (2 * h)[..., None]
+        d2 = np.zeros((*a.shape, 3, 3))
+        d2[..., 0, 1] = d2[..., 1, 0] = 1
+        d2[..., 2, 2] = -2
+        d2 = (
+            d2 / (2 * h)[..., None, None] - d1[..., :, None] * d1[..., None, :] / h[..., None, None]
         )
-        return sum(self.energies(tangent, second, arc)), slope, half + half.T
+        along_a = np.stack([np.ones_like(a), zero, zero], axis=-1)
+        # derivatives of h/a
+        ratio1 = d1 / a[..., None] - (h / a**2)[..., None] * along_a
+        mixed = d1[..., :, None] * along_a[..., None, :] / (a**2)[..., None, None]
+        both = along_a[..., :, None] * along_a[..., None, :]
+        ratio2 = d2 / a[..., None, None] - mixed - np.swapaxes(mixed, -1, -2)
+        ratio2 = ratio2 + (2 * h / a**3)[..., None, None] * both
+        root = np.sqrt(a)
+        value = beta * (k0**2 * root - 2 * k0 * h / a)
+        weight = np.asarray(beta)[..., None]
+        slope = weight * (k0**2 * (0.5 / root)[..., None] * along_a - 2 * k0 * ratio1)
+        bent = k0**2 * (-0.25 / (a * root))[..., None, None] * both - 2 * k0 * ratio2
+        return value, slope, weight[..., None] * bent
 
 
 def _invariants(tangent: Vectors, second: Vectors) -> tuple[Vectors, Vectors, Vectors]:

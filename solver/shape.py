@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from solver.disc_basis import position_map
 from solver.disc_functions import DiscFunction
+from solver.edge import EdgeCurve
 from solver.symmetry import Unknown
 
 Vectors = NDArray[np.float64]
@@ -21,7 +22,8 @@ Expansion = dict[tuple[int, DiscFunction], float]
 class LoopShape:
     """Position of every point of the disc, lengths in units of the loop radius.
 
-    The disc's crests lie on the x axis and its valleys on the y axis; z = 0 is half-way between.
+    The axis of the saddle is z. A circular loop on isotropic fabric has its crests on the x axis
+    and its valleys on the y axis, and z = 0 is half-way between.
 
     Attributes
     ----------
@@ -33,13 +35,17 @@ class LoopShape:
     coefficients: Vectors
 
     def position(self, radius: ArrayLike, angle_rad: ArrayLike) -> Vectors:
-        """Positions (n, 3) of the points that lay at polar coordinates of the flat disc."""
+        """Positions (n, 3) of points of the flat loop.
+
+        They lay at a·radius·cos(angle), b·radius·sin(angle), with semi-axes a and b (1 for a
+        circle).
+        """
         r, theta = np.broadcast_arrays(np.asarray(radius, float), np.asarray(angle_rad, float))
         return position_map(self.unknowns, r.ravel(), theta.ravel()) @ self.coefficients
 
     def edge(self, count: int) -> Vectors:
-        """Positions (count, 3) of equally spaced points of the wire, from the crest on +x."""
-        return self.position(1.0, np.arange(count) * (2 * np.pi / count))
+        """Positions (count, 3) of equally spaced angles of the wire, from the one on +x."""
+        return self.curve.position(np.arange(count, dtype=float) * (2 * np.pi / count))
 
     @cached_property
     def expansion(self) -> Expansion:
@@ -52,15 +58,29 @@ class LoopShape:
         return out
 
     @cached_property
+    def curve(self) -> EdgeCurve:
+        """The wire."""
+        waves = 1 + max(term.function.m for unknown in self.unknowns for term in unknown)
+        out = {"cos": np.zeros((waves, 3)), "sin": np.zeros((waves, 3))}
+        for (component, f), value in self.expansion.items():
+            out[f.trig][f.m, component] += value * f.edge_value
+        return EdgeCurve(out["cos"], out["sin"])
+
+    @cached_property
     def height(self) -> float:
-        """Rise of the wire from valley to crest, along the saddle's own axis."""
-        crest, valley = self.position(1.0, [0.0, np.pi / 2])[:, 2]
-        return float(crest - valley)
+        """Rise of the wire from its lowest to its highest point, along the saddle's own axis."""
+        return self.curve.extent
 
     @cached_property
     def width(self) -> float:
-        """Distance of opposite crests: the pitch at which equal loops stand side by side."""
-        return float(2 * self.position(1.0, 0.0)[0, 0])
+        """Distance of opposite crests: the pitch at which equal loops stand side by side.
+
+        Negative when the crests have passed through each other.
+        """
+        crest = self.curve.crest
+        x, y, _ = self.curve.position(np.array([crest]))[0]
+        outward = x * np.cos(crest) + y * np.sin(crest)
+        return float(np.copysign(2 * np.hypot(x, y), outward))
 
     @property
     def height_over_perimeter(self) -> float:

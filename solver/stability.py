@@ -1,92 +1,177 @@
-"""Whether a solved saddle is a minimum among all smooth shapes, not only among saddles.
+"""Whether a solved shape is a minimum among all smooth shapes, not only among those of its kind.
 
-By symmetry the second variation falls into four classes, one for each pair of mirror parities; two
-of them are equal, since a quarter turn swaps them. Motions that cost nothing are taken out: the six
-rigid ones, and the turn of the fabric under the saddle, which an isotropic disc cannot feel.
+By symmetry the second variation falls into classes: of a shape with two mirrors, one for each pair
+of mirror parities; of a shape with three half-turns likewise, with the parities of z the other way
+round. For a saddle on isotropic fabric two classes are equal, since a quarter turn swaps them.
+Motions that cost nothing are taken out.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.disc_basis import disc_basis
-from solver.disc_functions import DiscFunction
-from solver.loop_energy import loop_energy
+from solver.disc_basis import DiscBasis, Space, disc_basis, transfer
+from solver.free_motions import (
+    free_motions_of,
+    lifted,
+    orthonormal,
+    rotation,
+    translation,
+    turn_of_fabric,
+)
+from solver.loop_energy import edge_speed, scene_membrane, scene_rod
+from solver.quartic import FabricPolynomial, QuarticTable, tabulate
 from solver.scene import LoopScene
 from solver.shape import Expansion, LoopShape, from_expansion
-from solver.symmetry import Parity
+from solver.symmetry import ALIGNED, DIAGONAL, HALF_TURN, Mirrors, Symmetry, mirror_symmetry
 
 Vectors = NDArray[np.float64]
 
-CLASSES: tuple[tuple[Parity, Parity], ...] = ((0, 0), (1, 0), (1, 1))
-"""The classes that differ; (0, 1) has the eigenvalues of (1, 0)."""
+CLASSES: tuple[Mirrors, ...] = ((0, 0), (1, 0), (1, 1))
+"""The mirror classes that differ for a saddle; (0, 1) has the eigenvalues of (1, 0)."""
+
+_ALL_MIRRORS: tuple[Mirrors, ...] = (*CLASSES, (0, 1))
+_OTHER: dict[Mirrors, Mirrors] = {(0, 0): (1, 1), (1, 1): (0, 0), (1, 0): (0, 1), (0, 1): (1, 0)}
+_HOMES = {"saddle": ALIGNED, "oblique": HALF_TURN}
+"""Spaces that hold the shapes of a smaller one, tabulated at the points of its motions."""
+
+_LARGEST_TABLE = 500_000
+"""Entries beyond which integration is quicker."""
 
 
-def _translation(component: int) -> Expansion:
-    return {(component, DiscFunction(0, 0, "cos")): 1.0}
+def classes_of(space: Space) -> tuple[Symmetry, ...]:
+    """Classes into which the second variation at a shape of a space falls."""
+    if space == "saddle":
+        return tuple(mirror_symmetry(*c) for c in CLASSES)
+    if space == DIAGONAL:
+        return tuple(Symmetry((c,), (_OTHER[c],)) for c in _ALL_MIRRORS)
+    if space == "oblique":
+        return HALF_TURN, Symmetry(((1, 0), (0, 1)), ((1, 0), (0, 1)))
+    return tuple(mirror_symmetry(*c) for c in _ALL_MIRRORS)
 
 
-def _rotation(shape: LoopShape, first: int, second: int) -> Expansion:
-    """Turn in the plane of two axes: first += −second, second += first."""
-    out: Expansion = {}
-    for (component, function), value in shape.expansion.items():
-        if component == second:
-            out[first, function] = -value
-        elif component == first:
-            out[second, function] = value
-    return out
-
-
-def _turn_of_fabric(shape: LoopShape) -> Expansion:
-    """Derivative of the position by the angle in the disc."""
+def free_motions(shape: LoopShape, symmetry: Mirrors) -> tuple[Expansion, ...]:
+    """Motions of one mirror class that leave a saddle's energy on isotropic fabric as it is."""
+    e = shape.expansion
     return {
-        (component, DiscFunction(f.m, f.k, "sin" if f.trig == "cos" else "cos")): (
-            -f.m * value if f.trig == "cos" else f.m * value
-        )
-        for (component, f), value in shape.expansion.items()
-    }
-
-
-def free_motions(shape: LoopShape, symmetry: tuple[Parity, Parity]) -> tuple[Expansion, ...]:
-    """Motions of one mirror class that leave the energy as it is."""
-    return {
-        (0, 0): (_translation(2),),
-        (1, 0): (_translation(0), _rotation(shape, 0, 2)),
-        (0, 1): (_translation(1), _rotation(shape, 1, 2)),
-        (1, 1): (_rotation(shape, 0, 1), _turn_of_fabric(shape)),
+        (0, 0): (translation(2),),
+        (1, 0): (translation(0), rotation(e, 0, 2)),
+        (0, 1): (translation(1), rotation(e, 1, 2)),
+        (1, 1): (rotation(e, 0, 1), turn_of_fabric(e)),
     }[symmetry]
 
 
+@dataclass(frozen=True, eq=False)
+class Motions:
+    """Motions of one class, around shapes of a basis, tabulated at the points of integration.
+
+    Attributes
+    ----------
+    shapes : DiscBasis
+        n unknowns.
+    basis : DiscBasis
+        m unknowns of the class.
+    gradient, edge : array (P, 3, 2, n), (Q, 6, n)
+        Of the shapes, at the points of ``basis``.
+    """
+
+    shapes: DiscBasis
+    basis: DiscBasis
+    gradient: Vectors
+    edge: Vectors
+
+    @property
+    def few(self) -> bool:
+        """Whether the table is small enough to be worth its while."""
+        m, n = self.basis.size, self.shapes.size
+        return m * (m + 1) * n * (n + 1) <= 4 * _LARGEST_TABLE
+
+    @cached_property
+    def table(self) -> QuarticTable:
+        """The fabric's second variation as a polynomial of the shape."""
+        return tabulate(self.basis.gradient, self.gradient, self.basis.area)
+
+
+@lru_cache(maxsize=128)
+def motions(shapes: DiscBasis, space: Space, symmetry: Symmetry, highest: int) -> Motions:
+    """Tabulate the motions of a class up to a polynomial degree."""
+    home = disc_basis(shapes.degree, _HOMES[space]) if isinstance(space, str) else shapes
+    into = transfer(shapes, home)
+    basis = disc_basis(shapes.degree, symmetry).up_to(highest)
+    return Motions(shapes, basis, home.gradient @ into, home.edge @ into)
+
+
+def hessian_along(scene: LoopScene, moves: Motions, q: Vectors) -> Vectors:
+    """Second variation (m, m) along motions of one class, at the shape q (n,)."""
+    basis, membrane = moves.basis, scene_membrane(scene)
+    if scene.isotropic_circle and moves.few:
+        fabric = FabricPolynomial(moves.table, membrane.strain, membrane.a, membrane.b).hessian(q)
+    else:
+        fabric = membrane.derivatives(moves.gradient @ q, basis.area, basis.gradient)[2]
+    speed = edge_speed(scene, basis.angle)
+    return fabric + scene_rod(scene).derivatives(moves.edge @ q, basis.arc, basis.edge, speed)[2]
+
+
+@dataclass(frozen=True)
+class WeakestMotion:
+    """The lowest eigenvalue of a second variation, and its motion.
+
+    ``eigenvalue`` is the energy's curvature (units of E_f t) along a displacement whose mean square
+    over the disc is 1.
+    """
+
+    eigenvalue: float
+    symmetry: Symmetry
+    basis: DiscBasis
+    hessian: Vectors
+
+    @property
+    def direction(self) -> Vectors:
+        """The motion (m,), in the basis of its class."""
+        return np.linalg.eigh(self.hessian)[1][:, 0]
+
+
+def weakest_motion(
+    scene: LoopScene, space: Space, basis: DiscBasis, q: Vectors, highest: int | None = None
+) -> WeakestMotion:
+    """Find the motion of least stiffness among all smooth ones, free motions taken out.
+
+    Parameters
+    ----------
+    space : Space
+        The symmetry of the shape.
+    basis : DiscBasis
+        Of that space; q (n,) are the shape's unknowns in it.
+    highest : int, optional
+        Degree of the polynomials up to which motions are tried; by default, that of the shape's.
+    """
+    found: list[WeakestMotion] = []
+    for symmetry in classes_of(space):
+        moves = motions(basis, space, symmetry, highest or basis.degree + 1)
+        free = free_motions_of(basis, moves.basis, q, isotropic=scene.isotropic_circle)
+        hessian = lifted(hessian_along(scene, moves, q), free)
+        lowest = float(np.linalg.eigvalsh(hessian)[0])
+        found.append(WeakestMotion(lowest, symmetry, moves.basis, hessian))
+    return min(found, key=lambda motion: motion.eigenvalue)
+
+
 def class_hessian(
-    scene: LoopScene, shape: LoopShape, degree: int, symmetry: tuple[Parity, Parity]
+    scene: LoopScene, shape: LoopShape, degree: int, symmetry: Mirrors
 ) -> tuple[Vectors, Vectors]:
     """Hessian (n, n) in one mirror class, and an orthonormal basis (n, f) of its free motions."""
-    even = disc_basis(degree, (0, 0))
-    basis = disc_basis(degree, symmetry)
+    even = disc_basis(degree, ALIGNED)
     q = from_expansion(even.unknowns, shape.expansion)
-    energy = loop_energy(scene, basis)
-    hessian = energy.derivatives_around(even.gradient @ q, even.tangent @ q, even.second @ q)[2]
-    free = np.stack(
-        [from_expansion(basis.unknowns, motion) for motion in free_motions(shape, symmetry)], axis=1
-    )
-    left, singular, _ = np.linalg.svd(free, full_matrices=False)
-    return hessian, left[:, singular > 1e-9 * singular[0]]
+    moves = motions(even, ALIGNED, mirror_symmetry(*symmetry), degree + 1)
+    free = free_motions_of(even, moves.basis, q, isotropic=scene.isotropic_circle)
+    return hessian_along(scene, moves, q), orthonormal(free)
 
 
 def lowest_eigenvalue(scene: LoopScene, shape: LoopShape, degree: int) -> float:
-    """Lowest eigenvalue of the second variation, free motions taken out.
-
-    It is the energy's curvature (units of E_f t) along a displacement whose mean square over the
-    disc is 1; at least 0 for a minimum.
-    """
-    return min(
-        float(np.linalg.eigvalsh(_without(*class_hessian(scene, shape, degree, symmetry)))[0])
-        for symmetry in CLASSES
-    )
-
-
-def _without(hessian: Vectors, free: Vectors) -> Vectors:
-    """Hessian with the span of ``free`` lifted out of the way of the lowest eigenvalue."""
-    rest = np.eye(len(hessian)) - free @ free.T
-    return rest @ hessian @ rest + float(np.trace(np.abs(hessian))) * free @ free.T
+    """Lowest eigenvalue of the second variation at a shape with two mirrors; ≥ 0 at a minimum."""
+    even = disc_basis(degree, ALIGNED)
+    q = from_expansion(even.unknowns, shape.expansion)
+    return weakest_motion(scene, ALIGNED, even, q).eigenvalue

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from patterns.path import WirePath
 from patterns.rules.subject import Subject
 from patterns.violation import Violation
 
@@ -17,22 +16,19 @@ def check_bend_radius(subject: Subject) -> list[Violation]:
     allowed = subject.stitching.smallest_bend_diameters * subject.wire_diameter_mm
     message = "the wire is bent too tightly: radius"
     faults: list[Violation] = []
-    for half in (subject.circuit.first_half, subject.circuit.second_half):
-        for piece in half.pieces:
-            if abs(piece.curvature_per_mm) * allowed > 1 + 1e-9:
-                middle, _ = piece.at(np.array([piece.length_mm / 2]))
-                radius = 1 / abs(piece.curvature_per_mm)
-                x, y = (float(value) for value in middle[0])
-                faults.append(
-                    Violation("bend-radius", message, x, y, actual=radius, allowed=allowed)
-                )
+    for piece in subject.circuit.wire.pieces:
+        if abs(piece.curvature_per_mm) * allowed > 1 + 1e-9:
+            middle, _ = piece.at(np.array([piece.length_mm / 2]))
+            radius = 1 / abs(piece.curvature_per_mm)
+            x, y = (float(value) for value in middle[0])
+            faults.append(Violation("bend-radius", message, x, y, actual=radius, allowed=allowed))
     return faults
 
 
 def check_smooth_path(subject: Subject) -> list[Violation]:
-    """From terminal to terminal the wire has no jump and no kink, within and between its halves."""
-    pieces = subject.circuit.first_half.pieces + subject.circuit.second_half.pieces
-    gaps, kinks = WirePath(pieces).joints()
+    """From terminal to terminal the wire has no jump and no kink, within and between its stages."""
+    pieces = subject.circuit.wire.pieces
+    gaps, kinks = subject.circuit.wire.joints()
     faults: list[Violation] = []
     for i in np.flatnonzero((gaps > _LARGEST_GAP_MM) | (kinks > _LARGEST_KINK)):
         start, _ = pieces[int(i) + 1].at(np.array([0.0]))

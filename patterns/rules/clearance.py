@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from patterns.plan import BlockKind
 from patterns.rules.subject import Subject
@@ -16,23 +17,18 @@ def check_needle_on_wire(subject: Subject) -> list[Violation]:
 
     Marks are sewn before any wire and must miss all of it: wire is laid there later.
     """
-    laid: list[BlockKind] = []
     faults: list[Violation] = []
     for i, block in enumerate(subject.plan.blocks):
-        if block.kind.is_wire and block.kind not in laid:
-            laid.append(block.kind)
-        wires = list(subject.halves) if block.kind is BlockKind.MARKS else laid
-        faults.extend(_strikes(subject, i, wires))
+        everything = np.ones(len(subject.stage_of_piece), dtype=np.bool_)
+        wire = everything if block.kind is BlockKind.MARKS else subject.laid_before(i + 1)
+        faults.extend(_strikes(subject, i, wire))
     return faults
 
 
-def _strikes(subject: Subject, block: int, wires: list[BlockKind]) -> list[Violation]:
+def _strikes(subject: Subject, block: int, wire: NDArray[np.bool_]) -> list[Violation]:
     needles = subject.needles_mm[block]
     allowed = subject.clearance_mm
-    distance = np.full(len(needles), np.inf)
-    for wire in wires:
-        nearest = subject.halves[wire].nearest(needles, allowed)
-        distance = np.minimum(distance, nearest.distance_mm)
+    distance = subject.wire.nearest(needles, allowed, among=wire).distance_mm
     message = "the needle strikes wire: too near to its centreline"
     return [
         subject.fault(

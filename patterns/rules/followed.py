@@ -1,4 +1,4 @@
-"""The stitches of a wire block really tie down the half of the wire it is meant for."""
+"""The stitches of a wire block really tie down the stage of the wire it is meant for."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from patterns.couching import FREE_TAIL_MM
-from patterns.plan import BlockKind
+from patterns.path import Vectors
 from patterns.rules.subject import Subject
 from patterns.stitching import ROUNDING_MM
 from patterns.violation import Violation
@@ -34,35 +34,56 @@ class _Couching:
 
 
 def check_wire_followed(subject: Subject) -> list[Violation]:
-    """Needle points lie left and right of the half in turn, in order, with no long gap.
+    """Needle points lie left and right of the stage in turn, in order, with no long gap.
 
     Of each tail the last `FREE_TAIL_MM` may be bare, and the lock stitches at both ends of the
     block may stay on one side.
     """
     faults: list[Violation] = []
     for i, block in enumerate(subject.plan.blocks):
-        if block.kind.is_wire and len(subject.needles_mm[i]):
-            faults.extend(_check_block(subject, i, block.kind))
+        known = 0 <= block.stage < len(subject.stages)
+        if block.kind.is_wire and known and len(subject.needles_mm[i]):
+            faults.extend(_check_block(subject, i, block.stage))
     return faults
 
 
-def _check_block(subject: Subject, block: int, kind: BlockKind) -> list[Violation]:
+def _check_block(subject: Subject, block: int, stage: int) -> list[Violation]:
     needles = subject.needles_mm[block]
-    nearest = subject.halves[kind].nearest(needles, subject.reach_mm)
+    nearest = _places(subject, needles, stage)
     beside = nearest.overshoot_mm <= ROUNDING_MM + subject.stitching.lock_length_mm
     if not np.all(beside):
-        return _astray(subject, block, kind, nearest, beside)
+        return _astray(subject, block, nearest, beside)
     lead = _lock_points(subject, block, nearest.side_mm, 1)
     trail = _lock_points(subject, block, nearest.side_mm, -1)
     inner = slice(lead, max(len(needles) - trail, lead + 1))
     couching = _Couching(subject, block, lead, nearest.station_mm[inner], nearest.side_mm[inner])
-    return [*_check_sides(couching), *_check_advance(couching), *_check_ends(couching, kind)]
+    return [*_check_sides(couching), *_check_advance(couching), *_check_ends(couching, stage)]
+
+
+def _places(subject: Subject, needles_mm: Vectors, stage: int) -> Nearest:
+    """Nearest places on a stage; of two, that which lies between those of the needle's neighbours.
+
+    Beyond an earlier wire a needle may be nearer to another part of its own stage.
+    """
+    wire = subject.stages[stage]
+    nearest = wire.nearest(needles_mm, subject.reach_mm)
+    away = (nearest.station_mm, subject.reach_mm)
+    other = wire.nearest(needles_mm, subject.reach_mm, away_from=away)
+    padded = np.pad(nearest.station_mm, 1, mode="reflect" if len(needles_mm) > 1 else "edge")
+    expected = (padded[2:] + padded[:-2]) / 2
+    swap = np.abs(other.station_mm - expected) < np.abs(nearest.station_mm - expected)
+    return Nearest(
+        np.where(swap, other.distance_mm, nearest.distance_mm),
+        np.where(swap, other.station_mm, nearest.station_mm),
+        np.where(swap, other.side_mm, nearest.side_mm),
+    )
 
 
 def _astray(
-    subject: Subject, block: int, kind: BlockKind, nearest: Nearest, beside: NDArray[np.bool_]
+    subject: Subject, block: int, nearest: Nearest, beside: NDArray[np.bool_]
 ) -> list[Violation]:
-    message = f"the needle point is not beside the wire of block {kind.value}: distance"
+    stage = subject.plan.blocks[block].stage + 1
+    message = f"the needle point is not beside the wire of stage {stage}: distance"
     distance, allowed = nearest.distance_mm, subject.reach_mm
     return [
         subject.fault(_RULE, message, block, int(i), actual=float(distance[i]), allowed=allowed)
@@ -113,21 +134,22 @@ def _rounding_mm(couching: _Couching) -> Numbers:
     Seen from a point at distance d on the inside of a bend of radius R, the wire runs R / (R - d)
     times as far.
     """
-    curvature = 1 / couching.subject.circuit.first_half.smallest_radius_mm
-    curvature = max(curvature, 1 / couching.subject.circuit.second_half.smallest_radius_mm)
+    curvature = 1 / couching.subject.circuit.smallest_radius_mm
     depth = np.minimum(np.abs(couching.side_mm) * curvature, 0.5)
     stretched = ROUNDING_MM / (1 - depth)
     return stretched[1:] + stretched[:-1]
 
 
-def _check_ends(couching: _Couching, kind: BlockKind) -> list[Violation]:
+def _check_ends(couching: _Couching, stage: int) -> list[Violation]:
+    stages = couching.subject.stages
     interval = couching.subject.stitching.couching_interval_mm + 2 * ROUNDING_MM
-    starts, ends = (FREE_TAIL_MM, 0.0) if kind is BlockKind.WIRE_FIRST else (0.0, FREE_TAIL_MM)
-    length = couching.subject.halves[kind].length_mm
+    starts = FREE_TAIL_MM if stage == 0 else 0.0
+    ends = FREE_TAIL_MM if stage == len(stages) - 1 else 0.0
+    length = stages[stage].length_mm
     last = len(couching.station_mm) - 1
     bare_start = float(couching.station_mm[0])
     bare_end = length - float(couching.station_mm[last])
-    message = "the wire is left loose at an end of its half: bare length"
+    message = "the wire is left loose at an end of its stage: bare length"
     checks = ((0, bare_start, starts + interval), (last, bare_end, ends + interval))
     return [
         couching.fault(at, message, bare, allowed) for at, bare, allowed in checks if bare > allowed

@@ -1,46 +1,74 @@
-"""Cover thread lies between the halves wherever they come together."""
+"""Cover thread lies between the stages of the wire wherever they come together."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from patterns.path import Vectors
-from patterns.plan import UNITS_PER_MM, BlockKind, Run
 from patterns.rules.near import near_stretches
+from patterns.rules.satin import satin_crossings
 from patterns.rules.subject import Subject
 from patterns.stitching import ROUNDING_MM
 from patterns.violation import Violation
-from patterns.wire_index import Numbers, WireIndex
+from patterns.wire_index import Indices, Numbers, WireIndex
 
 _RULE = "insulation"
 _TOLERANCE_MM = 0.01
+_PLACES = 5
+"""Places of a stretch at which the wire that comes near is looked for."""
 
 
 def check_insulation(subject: Subject) -> list[Violation]:
-    """Where the second half comes near the first, satin sewn between them crosses the first.
+    """Where a later stage comes near an earlier one, satin sewn between them crosses the earlier.
 
-    The places are found from the paths themselves. A half that comes near to itself is a short
+    The places are found from the paths themselves. A stage that comes near to itself is a short
     circuit too, for no cover can lie there.
     """
-    first, second = (subject.halves[kind] for kind in subject.halves)
-    stretches = near_stretches(first, second, first.length_mm, subject.separation_mm)
-    crossed = np.sort(np.concatenate([np.empty(0), *_cover_stations(subject)]))
+    station, block = satin_crossings(subject)
+    faults: list[Violation] = []
+    for stage in range(len(subject.stages)):
+        stretches, on_top = _meetings(subject, stage)
+        for later in np.unique(on_top).tolist():
+            between = block < subject.laying.get(later, len(subject.plan.blocks))
+            crossed = np.sort(station[between] - subject.circuit.starts_mm[stage])
+            faults.extend(_uncovered(subject, stage, later, stretches[on_top == later], crossed))
+    return faults + _check_each_stage(subject)
+
+
+def _meetings(subject: Subject, stage: int) -> tuple[Vectors, Indices]:
+    """Stretches (n, 2) of a stage that later stages come near to, and the first such stage (n,)."""
+    wire, start = subject.stages[stage], subject.circuit.starts_mm[stage]
+    later = subject.stage_of_piece > stage
+    separation = subject.separation_mm
+    stretches = near_stretches(wire, subject.wire, -start, separation, later)
+    on_top = np.full(len(stretches), len(subject.stages))
+    for share in np.linspace(0.0, 1.0, _PLACES):
+        place = stretches[:, 0] + share * (stretches[:, 1] - stretches[:, 0])
+        apart = (place + start, np.pi / 2 * separation)
+        which, piece = subject.wire.within(wire.at(place), separation, apart, later)
+        np.minimum.at(on_top, which, subject.stage_of_piece[piece])
+    found = on_top < len(subject.stages)
+    return stretches[found], on_top[found]
+
+
+def _uncovered(
+    subject: Subject, stage: int, later: int, stretches: Vectors, crossed: Numbers
+) -> list[Violation]:
     largest = 1.5 * subject.stitching.cover_spacing_mm + 2 * ROUNDING_MM
     message = (
-        "short circuit: the halves meet, and no cover stitches at most "
-        f"{largest:.2f} mm apart lie between them; bare length"
+        f"short circuit: stages {stage + 1} and {later + 1} of the wire meet, and no cover "
+        f"stitches at most {largest:.2f} mm apart lie between them; bare length"
     )
-    return [
-        _fault(first, bare, message) for bare in _bare(stretches, crossed, largest)
-    ] + _check_each_half(subject)
+    wire = subject.stages[stage]
+    return [_fault(wire, bare, message) for bare in _bare(stretches, crossed, largest)]
 
 
-def _check_each_half(subject: Subject) -> list[Violation]:
+def _check_each_stage(subject: Subject) -> list[Violation]:
     faults: list[Violation] = []
-    for kind, half in subject.halves.items():
-        message = f"short circuit: the wire of block {kind.value} comes near itself; length"
-        stretches = near_stretches(half, half, 0.0, subject.separation_mm)
-        faults.extend(_fault(half, stretch, message) for stretch in stretches)
+    for k, wire in enumerate(subject.stages):
+        message = f"short circuit: stage {k + 1} of the wire comes near itself; length"
+        stretches = near_stretches(wire, wire, 0.0, subject.separation_mm)
+        faults.extend(_fault(wire, stretch, message) for stretch in stretches)
     return faults
 
 
@@ -62,34 +90,3 @@ def _bare(stretches: Vectors, crossed: Numbers, largest_gap_mm: float) -> list[N
             if part[1] - part[0] > _TOLERANCE_MM:
                 bare.append(part)
     return bare
-
-
-def _cover_stations(subject: Subject) -> list[Numbers]:
-    """Find where cover stitches, sewn after the first half and before the second, cross it."""
-    kinds = [block.kind for block in subject.plan.blocks]
-    if BlockKind.WIRE_FIRST not in kinds:
-        return []
-    after = kinds.index(BlockKind.WIRE_FIRST)
-    before = kinds.index(BlockKind.WIRE_SECOND) if BlockKind.WIRE_SECOND in kinds else len(kinds)
-    return [
-        _crossings(subject, run)
-        for block in subject.plan.blocks[after:before]
-        if block.kind is BlockKind.COVER
-        for run in block.runs
-    ]
-
-
-def _crossings(subject: Subject, run: Run) -> Numbers:
-    """Arclengths at which the satin stitches of a run cross the first half.
-
-    A stitch that runs along the wire by more than two spacings is no satin and covers nothing.
-    """
-    wire = subject.halves[BlockKind.WIRE_FIRST]
-    nearest = wire.nearest(run.needles / UNITS_PER_MM, subject.reach_mm)
-    station, side = nearest.station_mm, nearest.side_mm
-    advance = np.diff(station)
-    longest = 2 * subject.stitching.cover_spacing_mm + 2 * ROUNDING_MM
-    with np.errstate(invalid="ignore"):
-        satin = (side[1:] * side[:-1] < 0) & (np.abs(advance) <= longest)
-    share = np.abs(side[:-1][satin]) / np.abs(np.diff(side))[satin]
-    return station[:-1][satin] + share * advance[satin]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from patterns.path import Vectors
 from patterns.wire_index import Numbers, WireIndex
@@ -26,17 +27,23 @@ class _Gap:
     other: WireIndex
     offset_mm: float
     separation_mm: float
+    among: NDArray[np.bool_] | None
 
     def at(self, s_mm: Numbers) -> Numbers:
         reach = self.separation_mm + _COARSE_MM
         apart = np.pi / 2 * self.separation_mm
         points = self.wire.at(s_mm)
         here = s_mm - self.offset_mm
-        return self.other.nearest(points, reach, away_from=(here, apart)).distance_mm
+        nearest = self.other.nearest(points, reach, away_from=(here, apart), among=self.among)
+        return nearest.distance_mm
 
 
 def near_stretches(
-    wire: WireIndex, other: WireIndex, offset_mm: float, separation_mm: float
+    wire: WireIndex,
+    other: WireIndex,
+    offset_mm: float,
+    separation_mm: float,
+    among: NDArray[np.bool_] | None = None,
 ) -> Vectors:
     """Find the stretches of a wire that are nearer to another one than a separation.
 
@@ -46,9 +53,12 @@ def near_stretches(
         Centrelines; they may be the same.
     offset_mm : float
         Arclength, counted along ``wire``, at which ``other`` starts: the length of ``wire`` when
-        ``other`` continues it, 0 when they are the same.
+        ``other`` continues it, 0 when they are the same, less than 0 when ``wire`` is a part of
+        ``other`` farther on.
     separation_mm : float
         Distance of the centrelines, much smaller than the radius of any bend.
+    among : array of bool, optional
+        Which pieces of the other wire are looked at.
 
     Returns
     -------
@@ -56,7 +66,7 @@ def near_stretches(
         Start and end of each stretch along ``wire``, in order, apart from one another. Ends are
         exact to 0.005 mm and never too far inside.
     """
-    gap = _Gap(wire, other, offset_mm, separation_mm)
+    gap = _Gap(wire, other, offset_mm, separation_mm, among)
     station = np.linspace(0.0, wire.length_mm, 1 + int(np.ceil(wire.length_mm / _COARSE_MM)))
     distance = gap.at(station)
     cells = np.stack([station[:-1], station[1:], distance[:-1], distance[1:]], axis=1)

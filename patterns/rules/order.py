@@ -7,35 +7,51 @@ from patterns.rules.subject import Subject
 from patterns.violation import Violation
 
 _RULE = "blocks"
-_NEEDED = (BlockKind.WIRE_FIRST, BlockKind.COVER, BlockKind.WIRE_SECOND)
-_NAME = {
-    BlockKind.MARKS: "the registration marks",
-    BlockKind.WIRE_FIRST: "the first half of the wire",
-    BlockKind.COVER: "the cover between the halves",
-    BlockKind.WIRE_SECOND: "the second half of the wire",
-}
+_Part = tuple[BlockKind, int]
 
 
 def check_blocks(subject: Subject) -> list[Violation]:
-    """Check for marks (if any), first half, cover, second half: each once, in that order."""
-    kinds = [block.kind for block in subject.plan.blocks]
+    """Check for marks (if any), then the stages with a cover before each but the first, in order.
+
+    Each must be there once, and nothing else.
+    """
+    parts = [(block.kind, block.stage) for block in subject.plan.blocks]
+    order = _order(len(subject.circuit.stages))
     faults = [
-        Violation(_RULE, f"{_NAME[kind]} is missing: no block {kind.value}", 0.0, 0.0)
-        for kind in _NEEDED
-        if kind not in kinds
+        Violation(_RULE, f"{_name(part)} is missing: no block {part[0].value}", 0.0, 0.0)
+        for part in order[1:]
+        if part not in parts
     ]
     latest, latest_at = -1, 0
-    order = list(BlockKind)
-    for i, kind in enumerate(kinds):
-        rank = order.index(kind)
-        if kind in kinds[:i]:
-            faults.append(_fault(subject, i, f"{_NAME[kind]} is sewn a second time"))
+    for i, part in enumerate(parts):
+        if part not in order:
+            faults.append(_fault(subject, i, f"{_name(part)} is none of the circuit's"))
+            continue
+        rank = order.index(part)
+        if part in parts[:i]:
+            faults.append(_fault(subject, i, f"{_name(part)} is sewn a second time"))
         elif rank < latest:
-            late = _NAME[kinds[latest_at]]
-            faults.append(_fault(subject, i, f"{_NAME[kind]} is sewn too late, after {late}"))
+            late = _name(parts[latest_at])
+            faults.append(_fault(subject, i, f"{_name(part)} is sewn too late, after {late}"))
         if rank > latest:
             latest, latest_at = rank, i
     return faults
+
+
+def _order(stages: int) -> list[_Part]:
+    """Everything that is sewn, in order; the marks, which need not be, first."""
+    wires = [(kind, k) for k in range(stages) for kind in (BlockKind.COVER, BlockKind.WIRE)]
+    return [(BlockKind.MARKS, 0), *wires[1:]]
+
+
+def _name(part: _Part) -> str:
+    kind, stage = part
+    names = {
+        BlockKind.MARKS: "the registration marks",
+        BlockKind.COVER: f"the cover before stage {stage + 1} of the wire",
+        BlockKind.WIRE: f"stage {stage + 1} of the wire",
+    }
+    return names[kind]
 
 
 def _fault(subject: Subject, block: int, message: str) -> Violation:

@@ -95,12 +95,10 @@ def _check_margin(
 ) -> list[Violation]:
     start, end = outline.edges_mm()
     reach = wire_diameter_mm / 2 + margin_mm
-    distance = np.full(len(start), np.inf)
     faults: list[Violation] = []
-    for half in (circuit.first_half, circuit.second_half):
-        faults.extend(_check_crossed(fabric, half.line_string()))
-        found = edge_clearance_mm(start, end, WireIndex(half), reach)
-        distance = np.minimum(distance, found - wire_diameter_mm / 2)
+    for stage in circuit.stages:
+        faults.extend(_check_crossed(fabric, stage.line_string()))
+    distance = edge_clearance_mm(start, end, WireIndex(circuit.wire), reach) - wire_diameter_mm / 2
     message = "a cut line is too near to the wire's surface"
     for i in np.flatnonzero(distance < margin_mm - _ROUNDOFF_MM):
         middle = (start[i] + end[i]) / 2

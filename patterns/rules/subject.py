@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from patterns.circuit import Circuit
 from patterns.machine import Machine
 from patterns.path import Vectors
-from patterns.plan import UNITS_PER_MM, Block, BlockKind, StitchPlan
+from patterns.plan import UNITS_PER_MM, Block, StitchPlan
 from patterns.stitching import ROUNDING_MM, Stitching
 from patterns.violation import Violation
-from patterns.wire_index import WireIndex
+from patterns.wire_index import Indices, WireIndex
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,34 @@ class Subject:
     wire_diameter_mm: float
 
     @cached_property
-    def halves(self) -> dict[BlockKind, WireIndex]:
-        """The wire that each of the two wire blocks lays."""
-        return {
-            BlockKind.WIRE_FIRST: WireIndex(self.circuit.first_half),
-            BlockKind.WIRE_SECOND: WireIndex(self.circuit.second_half),
-        }
+    def wire(self) -> WireIndex:
+        """The whole wire."""
+        return WireIndex(self.circuit.wire)
+
+    @cached_property
+    def stages(self) -> tuple[WireIndex, ...]:
+        """The wire that each stage lays."""
+        return tuple(WireIndex(stage) for stage in self.circuit.stages)
+
+    @cached_property
+    def stage_of_piece(self) -> Indices:
+        """Stage of each piece of the whole wire."""
+        counts = [len(stage.pieces) for stage in self.circuit.stages]
+        return np.repeat(np.arange(len(counts)), counts)
+
+    @cached_property
+    def laying(self) -> dict[int, int]:
+        """The block in which each stage is first laid, for stages that the circuit has."""
+        found: dict[int, int] = {}
+        for i, block in enumerate(self.plan.blocks):
+            if block.kind.is_wire and 0 <= block.stage < len(self.circuit.stages):
+                found.setdefault(block.stage, i)
+        return found
+
+    def laid_before(self, block: int) -> NDArray[np.bool_]:
+        """Whether each piece of the whole wire has been laid before a block."""
+        laid = [stage for stage, at in self.laying.items() if at < block]
+        return np.isin(self.stage_of_piece, laid)
 
     @cached_property
     def needles_mm(self) -> tuple[Vectors, ...]:

@@ -1,10 +1,20 @@
-"""``sesame-cad solve``: one dimensionless loop."""
+"""``sesame-cad solve``: one dimensionless loop, or a grid of them."""
 
 from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
 
 import click
 
 from sesame_cad.errors import InputError
+
+if TYPE_CHECKING:
+    from solver.ladder.answer import Answer
+    from solver.mesh.scene import ArrayScene
+    from solver.scene import LoopScene
+
+_GRID = re.compile(r"([1-9][0-9]{0,2})\s*[x×]\s*([1-9][0-9]{0,2})")
 
 
 @click.command("solve")
@@ -26,8 +36,44 @@ from sesame_cad.errors import InputError
     help="Stretch stiffness of the wire, E_w A_w / (E_f t R).",
 )
 @click.option(
+    "--axis-ratio",
+    type=float,
+    default=1.0,
+    show_default=True,
+    help="Length over width of an elliptical loop; its perimeter is that of the circle.",
+)
+@click.option(
+    "--modulus-ratio",
+    type=float,
+    default=1.0,
+    show_default=True,
+    help="E1/E2 of the fabric, along and across; their mean is E_f.",
+)
+@click.option(
+    "--natural-curvature",
+    type=float,
+    default=0.0,
+    show_default=True,
+    help="Curvature to which the wire tends by itself, in units of 1/R.",
+)
+@click.option("--loops", default="1x1", show_default=True, help="Rows x columns of an array.")
+@click.option(
+    "--between",
+    type=click.Choice(["cut", "kept"]),
+    default="cut",
+    show_default=True,
+    help="What becomes of the fabric between the loops.",
+)
+@click.option(
+    "--fidelity",
+    type=click.Choice(["scaling", "compact", "mesh", "auto"]),
+    default="auto",
+    show_default=True,
+    help="Rung of the ladder; auto takes the cheapest that meets the tolerance.",
+)
+@click.option(
     "--tolerance",
-    type=click.FloatRange(1e-8, 0.1),
+    type=click.FloatRange(1e-8, 0.5),
     default=1e-4,
     show_default=True,
     help="Relative error allowed in the height.",
@@ -39,35 +85,79 @@ def command(
     poisson: float,
     reading: str,
     axial_stiffness: float,
+    axis_ratio: float,
+    modulus_ratio: float,
+    natural_curvature: float,
+    loops: str,
+    between: str,
+    fidelity: str,
     tolerance: float,
     as_json: bool,
 ) -> None:
-    """Solve one loop of radius 1: energies in units of E_f t R², lengths in units of R.
+    """Solve one loop, or a grid of loops: energies in units of E_f t R², lengths in units of R.
 
-    Keys that need a real length or stiffness (height_mm, pitch_mm, energy_mJ) are null.
+    R is the radius of a circle of the loop's perimeter. Keys that need a real length or stiffness
+    (height_mm, pitch_mm, energy_mJ) are null.
     """
     import json
     from time import perf_counter
 
-    from sesame_cad.design_data import loop_data
-    from sesame_cad.summary import print_loop
-    from solver.compact import solve_loop
+    from sesame_cad.answer_data import answer_data
+    from sesame_cad.summary import print_answer
     from solver.errors import NotConvergedError, SceneError
     from solver.reading import Reading
     from solver.scene import LoopScene
 
     try:
-        scene = LoopScene(strain, beta, poisson, Reading(reading), axial_stiffness)
+        loop = LoopScene(
+            strain,
+            beta,
+            poisson,
+            Reading(reading),
+            axial_stiffness,
+            axis_ratio,
+            modulus_ratio,
+            natural_curvature,
+        )
+        scene = _scene(loop, loops, between)
         start = perf_counter()
-        found = solve_loop(scene, tolerance=tolerance)
+        answer = _answer(scene, fidelity, tolerance)
         seconds = perf_counter() - start
     except SceneError as error:
         raise InputError(str(error)) from None
     except NotConvergedError as error:
         click.echo(f"error: {error}", err=True)
         raise click.exceptions.Exit(1) from None
-    data = loop_data(found, seconds)
+    data = answer_data(answer, seconds)
     if as_json:
         click.echo(json.dumps(data, indent=2))
     else:
-        print_loop(data)
+        print_answer(data)
+
+
+def _scene(loop: LoopScene, loops: str, between: str) -> LoopScene | ArrayScene:
+    """Give one loop, or the array that ``--loops`` names."""
+    grid = _GRID.fullmatch(loops.strip())
+    if grid is None:
+        raise InputError(f"--loops: {loops!r} is not rows x columns, such as 3x3")
+    rows, columns = int(grid[1]), int(grid[2])
+    if rows * columns == 1:
+        return loop
+    from solver.mesh.array_mesh import Between
+    from solver.mesh.scene import ArrayScene
+
+    return ArrayScene(loop, rows, columns, Between(between))
+
+
+def _answer(scene: LoopScene | ArrayScene, fidelity: str, tolerance: float) -> Answer:
+    """Solve; the scaling law loads nothing that it does not need."""
+    from solver.scene import LoopScene
+
+    if fidelity == "scaling" and isinstance(scene, LoopScene):
+        from solver.ladder.law import by_law
+
+        return by_law(scene, "asked for")
+    from solver.ladder.choose import solve_scene
+    from solver.ladder.fidelity import Fidelity
+
+    return solve_scene(scene, fidelity=Fidelity(fidelity), tolerance=tolerance)

@@ -19,7 +19,10 @@ from sesame_cad.pictures.canvas import png_bytes
 Vectors = NDArray[np.float64]
 
 # Okabe and Ito's colours, told apart by every kind of colour vision.
-FIRST, SECOND, COVER = "#0072B2", "#D55E00", "#009E73"
+STAGES = ("#0072B2", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#8B5A2B")
+"""Of the stages of the wire; after the last the first comes again."""
+
+COVER = "#009E73"
 NEEDLE, CUT, MARK = "#777777", "#555555", "#000000"
 
 _WIDTH_IN = 9.0
@@ -40,8 +43,8 @@ def plan_picture(
     _draw_needles(axes, plan)
     _draw_covers(axes, plan)
     arrow_mm = _arrow_mm(circuit, outline)
-    _draw_wire(axes, circuit.first_half, FIRST, "wire, first half", arrow_mm)
-    _draw_wire(axes, circuit.second_half, SECOND, "wire, second half", arrow_mm)
+    for k, stage in enumerate(circuit.stages):
+        _draw_wire(axes, stage, _colour(k), f"wire, stage {k + 1}", arrow_mm)
     _draw_numbers(axes, circuit)
     _draw_ends(axes, circuit)
     _finish(axes)
@@ -49,8 +52,8 @@ def plan_picture(
 
 
 def loops_in_order(circuit: Circuit) -> tuple[int, ...]:
-    """Give the loops in the order in which the wire reaches them, first half first."""
-    pieces = (*circuit.first_half.pieces, *circuit.second_half.pieces)
+    """Give the loops in the order in which the wire reaches them, stage by stage."""
+    pieces = circuit.wire.pieces
     reached = (_loop_of(piece, circuit.layout) for piece in pieces if isinstance(piece, Arc))
     return tuple(dict.fromkeys(reached))
 
@@ -58,6 +61,10 @@ def loops_in_order(circuit: Circuit) -> tuple[int, ...]:
 def _loop_of(arc: Arc, layout: Layout) -> int:
     centres = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops])
     return int(np.argmin(np.hypot(*(centres - (arc.centre_x_mm, arc.centre_y_mm)).T)))
+
+
+def _colour(stage: int) -> str:
+    return STAGES[stage % len(STAGES)]
 
 
 def _figure_size(outline: Outline, marks: tuple[Mark, ...]) -> tuple[float, float]:
@@ -129,10 +136,11 @@ def _draw_numbers(axes: Axes, circuit: Circuit) -> None:
 
 
 def _draw_ends(axes: Axes, circuit: Circuit) -> None:
+    last = len(circuit.stages) - 1
     ends = (
-        (circuit.first_half, 0.0, "start", FIRST),
-        (circuit.second_half, circuit.second_half.length_mm, "end", SECOND),
-        (circuit.second_half, 0.0, "half way", CUT),
+        (circuit.stages[0], 0.0, "start", _colour(0)),
+        *((circuit.stages[k], 0.0, f"stage {k + 1}", CUT) for k in range(1, last + 1)),
+        (circuit.stages[last], circuit.stages[last].length_mm, "end", _colour(last)),
     )
     for path, place_mm, text, colour in ends:
         point, along = path.at(place_mm)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
-from math import sqrt
+from math import cos, sin
 
+from patterns.errors import PatternError
 from patterns.sewn_run import APPROACH_MM
+from patterns.terminals import terminals
 from sesame_cad.specification.fault import Fault
-from sesame_cad.specification.layout import LayoutSection
+from sesame_cad.specification.layout import TILING, LayoutSection
 from sesame_cad.specification.machine import MachineSection
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
@@ -50,6 +52,7 @@ def inconsistencies(
         for check, needs in _CHECKS
         if not any(keys in faulty or keys[:1] in faulty for keys in needs)
         for fault in check(sections)
+        if fault.keys not in faulty
     )
 
 
@@ -61,48 +64,112 @@ def needed_hoop_mm(
 ) -> tuple[float, float]:
     """Give the width and height that loops, tails, rim and registration marks take in the hoop.
 
-    The array is centred in the hoop. The tails leave the bottom left loop at its lower left
-    (225 degrees) along the tangent there, one up and to the left, one down and to the right;
-    the rim of fabric goes around the wire, and the marks stand in the corners around everything.
+    The array is centred in the hoop. The tails leave one loop on its tangent, to both sides; the
+    rim of fabric goes around the wire, and the marks stand in the corners around everything.
+
+    Raises
+    ------
+    PatternError
+        When the tails cannot leave on the side that is asked for.
     """
-    loop, along = layout.loop_diameter_mm, stitching.tail_length_mm / sqrt(2)
-    inset = loop / 2 * (1 - 1 / sqrt(2))
+    loops = layout.loops()
+    start, angle = terminals(loops, layout.side)
     rim = wire.diameter_mm / 2 + outline.margin_mm
     around = rim + stitching.mark_gap_mm + stitching.mark_size_mm + APPROACH_MM
+    radius, tail = loops[start].radius_mm, stitching.tail_length_mm
 
-    def whole(loops: int) -> float:
-        half = loops * loop / 2
-        return 2 * (max(half, half - inset + along) + around)
+    def whole(centres: list[float], out: float, along: float) -> float:
+        beyond = [abs(at) + loop.radius_mm for at, loop in zip(centres, loops, strict=True)]
+        terminal = abs(centres[start] + radius * out) + abs(tail * along)
+        return 2 * (max(*beyond, terminal) + around)
 
-    return whole(layout.columns), whole(layout.rows)
+    cosine, sine = cos(angle), sin(angle)
+    return (
+        whole([loop.x_mm for loop in loops], cosine, sine),
+        whole([loop.y_mm for loop in loops], sine, cosine),
+    )
+
+
+def _missing_keys(sections: Together) -> Iterator[Fault]:
+    layout = sections.layout
+    needed = {"row": (_COLUMNS, _LOOP), "circles": (_CIRCLES,)}.get(
+        layout.kind, (_ROWS, _COLUMNS, _LOOP)
+    )
+    for keys in _ARRANGING:
+        given = getattr(layout, keys[1])
+        what = LayoutSection.model_fields[keys[1]].description
+        if keys in needed and not given:
+            yield Fault(keys, f"missing; give {what}")
+        elif keys not in needed and given and not (keys == _ROWS and given == 1):
+            problem = f'must be left out for layout.kind = "{layout.kind}"'
+            shown = number_text(given) if isinstance(given, (int, float)) else None
+            yield Fault(keys, problem, shown)
+
+
+def _missing_cells(sections: Together) -> Iterator[Fault]:
+    layout = sections.layout
+    if layout.missing and layout.kind == "circles":
+        yield Fault(_MISSING, 'must be left out for layout.kind = "circles"')
+        return
+    cells = layout.all_cells()
+    for row, column in dict.fromkeys(layout.missing):
+        if (row - 1, column - 1) not in cells:
+            yield Fault(_MISSING, f"there is no row {row} with a column {column} to leave out")
+    if cells and not layout.cells():
+        yield Fault(_MISSING, "leaves no loop at all")
+
+
+def _no_shape(sections: Together) -> Iterator[Fault]:
+    layout = sections.layout
+    # A grid with missing cells still tiles: every contact that is left is as before, between two
+    # equal saddles on a crest or in a valley of both, and a free edge asks for nothing.
+    if layout.shape == "cell" and layout.kind not in TILING:
+        yield Fault(
+            _SHAPE,
+            f'must be "none" for layout.kind = "{layout.kind}": its loops do not fit together each '
+            "in the shape that it takes alone, and the shape of the array needs the coupled array "
+            'solve, not available yet; with "none" there are stitch and cut files only',
+            '"cell"',
+        )
 
 
 def _thick_wire(sections: Together) -> Iterator[Fault]:
-    loop, diameter = sections.layout.loop_diameter_mm, sections.wire.diameter_mm
-    if diameter >= loop:
-        limit = f"must be less than layout.loop_diameter_mm = {number_text(loop)}"
+    diameter = sections.wire.diameter_mm
+    loop = min(sections.layout.diameters_mm, default=None)
+    if loop is not None and diameter >= loop:
+        limit = f"must be less than {_loop_name(sections.layout)} = {number_text(loop)}"
         yield Fault(_DIAMETER, limit, number_text(diameter))
 
 
 def _sharp_bend(sections: Together) -> Iterator[Fault]:
-    loop, diameter = sections.layout.loop_diameter_mm, sections.wire.diameter_mm
+    diameter = sections.wire.diameter_mm
     limit = sections.stitching.smallest_bend_diameters
     smallest = 2 * limit * diameter
-    if diameter < loop < smallest * (1 - ROUNDING):
-        yield Fault(
-            _LOOP,
-            f"must be at least {smallest:.6g}: a smaller loop bends wire of "
-            f"{number_text(diameter)} mm to a radius below "
-            f"stitching.smallest_bend_diameters = {number_text(limit)} times its diameter",
-            number_text(loop),
-        )
+    keys = _CIRCLES if sections.layout.kind == "circles" else _LOOP
+    for loop in sections.layout.diameters_mm:
+        if diameter < loop < smallest * (1 - ROUNDING):
+            yield Fault(
+                keys,
+                f"must be at least {smallest:.6g}: a smaller loop bends wire of "
+                f"{number_text(diameter)} mm to a radius below "
+                f"stitching.smallest_bend_diameters = {number_text(limit)} times its diameter",
+                number_text(loop),
+            )
+
+
+def _loop_name(layout: LayoutSection) -> str:
+    return "a diameter in layout.circles" if layout.kind == "circles" else "layout.loop_diameter_mm"
 
 
 def _small_hoop(sections: Together) -> Iterator[Fault]:
-    machine = sections.machine
-    width, height = needed_hoop_mm(
-        sections.wire, sections.layout, sections.stitching, sections.outline
-    )
+    machine, layout = sections.machine, sections.layout
+    known = layout.diameters_mm
+    if not known or min(known) <= sections.wire.diameter_mm or not layout.loops():
+        return  # that is said elsewhere
+    try:
+        width, height = needed_hoop_mm(sections.wire, layout, sections.stitching, sections.outline)
+    except PatternError:
+        return  # said when the wire is laid, after what may be wrong with the loops
     for keys, needed, available, loops in (
         (_WIDTH, width, machine.hoop_width_mm, "layout.columns"),
         (_HEIGHT, height, machine.hoop_height_mm, "layout.rows"),
@@ -110,7 +177,7 @@ def _small_hoop(sections: Together) -> Iterator[Fault]:
         if needed > available * (1 + ROUNDING):
             yield Fault(
                 keys,
-                f"must be at least {needed:.1f} for the loops, tails and marks; "
+                f"must be at least {needed:.1f} for the loops, margin, tails and marks; "
                 f"take a larger hoop, or fewer ({loops}) or smaller loops",
                 number_text(available),
             )
@@ -124,23 +191,39 @@ def _thick_preview(sections: Together) -> Iterator[Fault]:
 
 
 _DIAMETER = ("wire", "diameter_mm")
+_KIND = ("layout", "kind")
+_ROWS = ("layout", "rows")
+_COLUMNS = ("layout", "columns")
 _LOOP = ("layout", "loop_diameter_mm")
+_MISSING = ("layout", "missing")
+_CIRCLES = ("layout", "circles")
+_TERMINALS = ("layout", "terminals")
+_SHAPE = ("layout", "shape")
 _WIDTH = ("machine", "hoop_width_mm")
 _HEIGHT = ("machine", "hoop_height_mm")
 _PREVIEW = ("output", "preview_thickness_mm")
 
+_ARRANGING = (_ROWS, _COLUMNS, _LOOP, _CIRCLES)
+
 _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str], ...]], ...] = (
-    (_thick_wire, (_DIAMETER, _LOOP)),
-    (_sharp_bend, (_DIAMETER, _LOOP, ("stitching", "smallest_bend_diameters"))),
+    (_missing_keys, (_KIND,)),
+    (_missing_cells, (_KIND, _ROWS, _COLUMNS, _MISSING)),
+    (_no_shape, (_KIND, _SHAPE)),
+    (_thick_wire, (_DIAMETER, _KIND, _LOOP, _CIRCLES)),
+    (_sharp_bend, (_DIAMETER, _KIND, _LOOP, _CIRCLES, ("stitching", "smallest_bend_diameters"))),
     (
         _small_hoop,
         (
             _DIAMETER,
+            _KIND,
+            _ROWS,
+            _COLUMNS,
             _LOOP,
+            _MISSING,
+            _CIRCLES,
+            _TERMINALS,
             _WIDTH,
             _HEIGHT,
-            ("layout", "rows"),
-            ("layout", "columns"),
             ("stitching", "tail_length_mm"),
             ("stitching", "mark_size_mm"),
             ("stitching", "mark_gap_mm"),

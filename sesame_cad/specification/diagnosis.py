@@ -36,7 +36,7 @@ def diagnose(data: Mapping[str, object], error: ValidationError) -> tuple[Fault,
         What came of it.
     """
     found = {fault.keys: fault for fault in _own_faults(data, error)}
-    return (*_without_echoes(tuple(found.values())), *_faults_between(data, found))
+    return _without_echoes((*found.values(), *_faults_between(data, found)))
 
 
 def _own_faults(data: Mapping[str, object], error: ValidationError) -> Iterator[Fault]:
@@ -47,10 +47,11 @@ def _own_faults(data: Mapping[str, object], error: ValidationError) -> Iterator[
 
 
 def _fault(keys: tuple[str, ...], detail: ErrorDetails, value: object) -> Fault:
-    if detail["type"] == "extra_forbidden":
+    inside = len(detail["loc"]) > len(keys)  # of a list: the whole key is said
+    if detail["type"] == "extra_forbidden" and not inside:
         return _unknown(keys)
     field = _field(keys)
-    if detail["type"] == "missing":
+    if detail["type"] == "missing" and not inside:
         return Fault(keys, f"missing; give {field.description}")
     if keys[0] in sections() and len(keys) == 1:
         return Fault(keys, f"must be a section, [{keys[0]}] with keys below", shown_value(value))
@@ -96,7 +97,10 @@ def _faults_between(
     def sound(name: str, section: type[SectionT]) -> SectionT:
         keys = [key for key in section.model_fields if (name, key) not in found]
         given = {key: _value_at(data, (name, key)) for key in keys if _holds(data[name], key)}
-        return section.model_construct(**given)  # pyright: ignore[reportArgumentType]
+        try:
+            return section.model_validate(given)
+        except ValidationError:  # a key is missing
+            return section.model_construct(**given)  # pyright: ignore[reportArgumentType]
 
     together = Together(
         sound("wire", WireSection),

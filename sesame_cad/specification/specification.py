@@ -89,8 +89,8 @@ class Specification(Section):
         for name in sections():
             section: Section = getattr(self, name)
             yield from ("", f"[{name}]")
-            for key in type(section).model_fields:
-                yield _toml_line(key, getattr(section, key))
+            for key, value in section.model_dump().items():
+                yield _toml_line(key, value)
 
 
 def sections() -> dict[str, type[Section]]:

@@ -16,11 +16,13 @@ class Curvature(Enum):
     """Which second derivatives an element gives.
 
     ``CONVEX`` leaves out what can be negative, element by element, so that the sum is positive
-    semidefinite: a direction of descent far from a minimum.
+    semidefinite: a direction of descent far from a minimum. ``STEADY`` adds some of the stiffness
+    that wrinkled fabric would have when taut: a step that forgets it overshoots.
     """
 
     TRUE = auto()
     CONVEX = auto()
+    STEADY = auto()
 
 
 class Elements(Protocol):

@@ -1,28 +1,17 @@
-"""Mesh of one loop: a fan of triangles about the middle, the same that Surface Evolver was given."""
+"""Mesh of one loop: a fan of triangles about the middle, as given to Surface Evolver."""
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ellipe
 
+from solver.ellipse import semi_axes
 from solver.mesh.triangulation import Mesh, RoundRegion, Wire, unrefined
 
 Vectors = NDArray[np.float64]
 
 SEGMENTS = 20
 """Edges of the wire in the unrefined fan."""
-
-
-def semi_axes(axis_ratio: float) -> tuple[float, float]:
-    """Semi-axes a ≥ b of the ellipse of perimeter 2π with a/b = ``axis_ratio`` ≥ 1.
-
-    The perimeter is 4 a E(m), m = 1 − b²/a², with E the complete elliptic integral (DLMF 19.9.9).
-    """
-    a = 2 * math.pi / (4 * float(ellipe(1 - axis_ratio**-2)))
-    return a, a / axis_ratio
 
 
 def fan(region: RoundRegion) -> Mesh:
@@ -39,5 +28,4 @@ def fan(region: RoundRegion) -> Mesh:
 
 def loop_fan(axis_ratio: float = 1.0) -> Mesh:
     """Coarsest mesh of a loop about the origin, an ellipse of perimeter 2π."""
-    axes = (1.0, 1.0) if axis_ratio == 1 else semi_axes(axis_ratio)
-    return fan(RoundRegion(semi_axes=axes))
+    return fan(RoundRegion(semi_axes=semi_axes(axis_ratio)))

@@ -1,6 +1,7 @@
-"""Fabric as constant-strain triangles: St. Venant–Kirchhoff, prestrain as rest shape.
+"""Fabric as constant-strain triangles, with prestrain as rest shape.
 
-The energies are those of `solver.membrane` on a shape that is linear in each triangle.
+Of plain fabric the energies are those of `solver.membrane` on a shape that is linear in each
+triangle.
 """
 
 from __future__ import annotations
@@ -11,6 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.elements import Curvature
+from solver.mesh.fabric_law import FabricLaw, Flags, StVenantKirchhoff
+from solver.mesh.plane_tensor import tensile
+from solver.mesh.tension_field import TensionField
 from solver.mesh.triangulation import Mesh
 
 Vectors = NDArray[np.float64]
@@ -19,7 +23,7 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class TriangleEnergy:
-    """Triangles with energy density w = ½ eᵀ C e, e = (E₁₁, E₂₂, 2E₁₂).
+    """Triangles with an energy density that is a law of the strain.
 
     Attributes
     ----------
@@ -28,45 +32,54 @@ class TriangleEnergy:
         Gradient, over the unstretched fabric, of each corner's hat function.
     areas : array (m,)
         Unstretched areas.
-    stiffness : array (3, 3)
-        C, in units of E_f.
+    law : FabricLaw
     """
 
     vertices: Indices
     shape_gradients: Vectors
     areas: Vectors
-    stiffness: Vectors
+    law: FabricLaw
 
     def _deformation(self, corners: Vectors) -> Vectors:
         """Deformation gradient (m, 3, 2) from the unstretched fabric."""
         return np.swapaxes(corners, 1, 2) @ self.shape_gradients
 
+    def _strain(self, corners: Vectors) -> Vectors:
+        return _green_lagrange(self._deformation(corners))
+
     def stress(self, corners: Vectors) -> Vectors:
         """Second Piola–Kirchhoff stress (S₁₁, S₂₂, S₁₂) of each triangle, (m, 3), units of E_f."""
-        return _strain(self._deformation(corners)) @ self.stiffness
+        return self.law.stress(self._strain(corners))
+
+    def smallest_stress(self, corners: Vectors) -> Vectors:
+        """Smaller principal stress (m,) of each triangle, units of E_f."""
+        return self.law.smallest_stress(self._strain(corners))
+
+    def compressed(self, corners: Vectors) -> Flags:
+        """Whether each triangle is compressed, or wrinkled instead, (m,)."""
+        return self.law.compressed(self._strain(corners))
 
     def energies(self, corners: Vectors) -> Vectors:
         """Energy (m,) of each triangle."""
-        strain = _strain(self._deformation(corners))
-        return self.areas / 2 * np.sum(strain * (strain @ self.stiffness), axis=1)
+        return self.areas * self.law.density(self._strain(corners))
 
     def derivatives(
         self, corners: Vectors, curvature: Curvature
     ) -> tuple[Vectors, Vectors, Vectors]:
         """Energies (m,), gradients (m, 9) and Hessians (m, 9, 9)."""
         deformation = self._deformation(corners)
-        strain = _strain(deformation)
-        stress = strain @ self.stiffness
-        energies = self.areas / 2 * np.sum(strain * stress, axis=1)
+        strain = _green_lagrange(deformation)
+        energies = self.areas * self.law.density(strain)
         slope = self._strain_slope(deformation)
-        weighted = self.areas[:, None] * stress
+        weighted = self.areas[:, None] * self.law.stress(strain)
         gradients = (weighted[:, None, :] @ slope)[:, 0]
-        # C is factored once, so that the material part is a Gram matrix
-        root = np.linalg.cholesky(self.stiffness)
-        scaled = (np.sqrt(self.areas)[:, None, None] * root.T) @ slope
+        steady = curvature is Curvature.STEADY
+        root = self.law.steady_root(strain) if steady else self.law.root(strain)
+        # with a root of the stiffness, the material part is a Gram matrix
+        scaled = (np.sqrt(self.areas)[:, None, None] * root) @ slope
         hessians = np.swapaxes(scaled, 1, 2) @ scaled
         if curvature is Curvature.CONVEX:
-            weighted = _tensile(weighted)
+            weighted = tensile(weighted)
         self._add_geometric(hessians, weighted)
         return energies, gradients, hessians
 
@@ -90,7 +103,7 @@ class TriangleEnergy:
             blocks[:, :, component, :, component] += between
 
 
-def _strain(deformation: Vectors) -> Vectors:
+def _green_lagrange(deformation: Vectors) -> Vectors:
     """Green–Lagrange strain (E₁₁, E₂₂, 2E₁₂), (m, 3)."""
     along_1, along_2 = deformation[:, :, 0], deformation[:, :, 1]
     strain = np.empty((len(deformation), 3))
@@ -100,25 +113,9 @@ def _strain(deformation: Vectors) -> Vectors:
     return strain
 
 
-def principal(stress: Vectors) -> tuple[Vectors, Vectors]:
-    """Smaller and larger principal value (m,) of plane tensors (S₁₁, S₂₂, S₁₂), (m, 3)."""
-    mean = (stress[:, 0] + stress[:, 1]) / 2
-    radius = np.hypot((stress[:, 0] - stress[:, 1]) / 2, stress[:, 2])
-    return mean - radius, mean + radius
-
-
-def _tensile(stress: Vectors) -> Vectors:
-    """Stress (m, 3) with its compressive principal values set to 0."""
-    low, high = principal(stress)
-    kept_low, kept_high = np.maximum(low, 0), np.maximum(high, 0)
-    # S⁺ = p 1 + q S has the principal values kept_low and kept_high
-    spread = high - low
-    q = np.where(spread > 0, (kept_high - kept_low) / np.where(spread > 0, spread, 1.0), 0.0)
-    p = kept_high - q * high
-    return q[:, None] * stress + p[:, None] * np.array([1.0, 1.0, 0.0])
-
-
-def triangle_energy(mesh: Mesh, strain: float, stiffness: Vectors) -> TriangleEnergy:
+def triangle_energy(
+    mesh: Mesh, strain: float, stiffness: Vectors, *, tension_field: bool = False
+) -> TriangleEnergy:
     """Triangles of a mesh whose fabric was stretched by ``strain`` in all directions to lie flat.
 
     Parameters
@@ -126,16 +123,18 @@ def triangle_energy(mesh: Mesh, strain: float, stiffness: Vectors) -> TriangleEn
     strain : float
         ε: the unstretched fabric is smaller by 1/(1+ε) in every direction.
     stiffness : array (3, 3)
-        C, in units of E_f.
+        From the strain (E₁₁, E₂₂, 2E₁₂) to the stress, in units of E_f.
+    tension_field : bool
+        Whether the fabric wrinkles instead of bearing compression.
     """
     p, q, r = (mesh.points[mesh.triangles[:, k]] for k in range(3))
     opposite = np.stack([r - q, p - r, q - p], axis=1)
-    # a hat function's gradient is the opposite side, turned inward by a quarter, over twice the area
+    # a hat function's gradient: the opposite side, turned inward by a quarter, over twice the area
     turned = np.stack([-opposite[:, :, 1], opposite[:, :, 0]], axis=2)
     gradients = (1 + strain) * turned / (2 * mesh.areas)[:, None, None]
     return TriangleEnergy(
         vertices=mesh.triangles,
         shape_gradients=gradients,
         areas=mesh.areas / (1 + strain) ** 2,
-        stiffness=stiffness,
+        law=TensionField(stiffness) if tension_field else StVenantKirchhoff(stiffness),
     )

@@ -38,6 +38,22 @@ class Wire:
         corners = np.stack([before, self.vertices, after], axis=1)
         return corners if self.closed else corners[1:-1]
 
+    def midway(self, values: Vectors) -> Vectors:
+        """Values (e, d) in the middle of each edge from those at all vertices, by cubics.
+
+        A wire's bending would feel the kinks of a linear interpolation.
+        """
+        along = values[self.vertices]
+        if self.closed:
+            before, after = np.roll(along, 1, axis=0), np.roll(along, -1, axis=0)
+            return (9 * (along + after) - before - np.roll(along, -2, axis=0)) / 16
+        if len(along) < 4:
+            return (along[:-1] + along[1:]) / 2
+        inner = (9 * (along[1:-2] + along[2:-1]) - along[:-3] - along[3:]) / 16
+        first = (5 * along[:1] + 15 * along[1:2] - 5 * along[2:3] + along[3:4]) / 16
+        last = (5 * along[-1:] + 15 * along[-2:-1] - 5 * along[-3:-2] + along[-4:-3]) / 16
+        return np.concatenate([first, inner, last])
+
 
 @dataclass(frozen=True)
 class RoundRegion:
@@ -100,15 +116,8 @@ class Mesh:
     def vertex_areas(self) -> Vectors:
         """Share (n,) of the fabric that belongs to each vertex: a third of each triangle."""
         share = np.repeat(self.areas / 3, 3)
-        return np.bincount(self.triangles.ravel(), share, minlength=len(self.points))
-
-    def prolonged(self, coarse: Vectors, coarse_points: Vectors) -> Vectors:
-        """Carry positions (N, 3) of the mesh this one was refined from over to its vertices.
-
-        Displacements, not positions, are interpolated, so that the flat loop stays round.
-        """
-        moved = coarse - embedded(coarse_points)
-        return embedded(self.points) + moved[self.parents].mean(axis=1)
+        total = np.bincount(self.triangles.ravel(), share, minlength=len(self.points))
+        return total.astype(np.float64, copy=False)
 
 
 def embedded(points: Vectors) -> Vectors:
@@ -198,6 +207,19 @@ def refined(mesh: Mesh) -> Mesh:
         wires=tuple(_refined_wire(wire, midpoints) for wire in mesh.wires),
         parents=np.concatenate([itself, midpoints.ends]),
     )
+
+
+def prolonged(coarse: Mesh, fine: Mesh, positions: Vectors) -> Vectors:
+    """Positions (N, 3) of a refined mesh's vertices from those (n, 3) of the mesh before it.
+
+    Displacements are interpolated, not positions, so that flat loops stay round: linearly, and
+    along the wires by cubics.
+    """
+    moved = positions - embedded(coarse.points)
+    between = moved[fine.parents].mean(axis=1)
+    for wire, refined_wire in zip(coarse.wires, fine.wires, strict=True):
+        between[refined_wire.vertices[1::2]] = wire.midway(moved)
+    return embedded(fine.points) + between
 
 
 def refinements(coarsest: Mesh, times: int) -> tuple[Mesh, ...]:

@@ -14,6 +14,9 @@ from patterns.stitching import Stitching
 from patterns.tangent_switch import grid_circuit
 from patterns.violation import Violation
 
+Part = tuple[BlockKind, int]
+"""Kind and stage of a block."""
+
 
 class Bench:
     """A good plan, ways to spoil it, and the rules to find that out."""
@@ -41,23 +44,29 @@ class Bench:
     def broken(self, circuit: Circuit, plan: StitchPlan, **changes: object) -> set[str]:
         return {violation.rule for violation in self.check(circuit, plan, **changes)}
 
-    def block_of(self, plan: StitchPlan, kind: BlockKind) -> Block:
-        return next(block for block in plan.blocks if block.kind is kind)
+    marks = (BlockKind.MARKS, 0)
+    first = (BlockKind.WIRE, 0)
+    cover = (BlockKind.COVER, 1)
+    second = (BlockKind.WIRE, 1)
+    parts = (marks, first, cover, second)
 
-    def with_runs(self, plan: StitchPlan, kind: BlockKind, *runs: Run) -> StitchPlan:
-        blocks = (replace(b, runs=runs) if b.kind is kind else b for b in plan.blocks)
+    def block_of(self, plan: StitchPlan, part: Part) -> Block:
+        return next(block for block in plan.blocks if (block.kind, block.stage) == part)
+
+    def with_runs(self, plan: StitchPlan, part: Part, *runs: Run) -> StitchPlan:
+        blocks = (replace(b, runs=runs) if (b.kind, b.stage) == part else b for b in plan.blocks)
         return StitchPlan(tuple(blocks))
 
-    def with_needles(self, plan: StitchPlan, kind: BlockKind, needles: np.ndarray) -> StitchPlan:
+    def with_needles(self, plan: StitchPlan, part: Part, needles: np.ndarray) -> StitchPlan:
         return self.with_runs(
-            plan, kind, replace(self.block_of(plan, kind).runs[0], needles=needles)
+            plan, part, replace(self.block_of(plan, part).runs[0], needles=needles)
         )
 
     def with_mark(self, plan: StitchPlan, *needles: tuple[int, int]) -> StitchPlan:
-        runs = self.block_of(plan, BlockKind.MARKS).runs
+        runs = self.block_of(plan, self.marks).runs
         x, y = needles[0]
         run = Run((x - 10, y), np.array(needles))
-        return self.with_runs(plan, BlockKind.MARKS, *runs, run)
+        return self.with_runs(plan, self.marks, *runs, run)
 
 
 @pytest.fixture(scope="session")

@@ -26,11 +26,9 @@ grids = pytest.mark.parametrize(
 
 
 def second_half(circuit, first_side=LEFT):
-    laid = laid_wire(circuit.first_half, circuit.second_half)
-    span = (0.0, circuit.second_half.length_mm - 10)
-    return couching(
-        circuit.second_half, span, first_side, laid, clear_mm=CLEAR, stitching=STITCHING
-    )
+    laid = laid_wire(*circuit.stages)
+    span = (0.0, circuit.stages[1].length_mm - 10)
+    return couching(circuit.stages[1], span, first_side, laid, clear_mm=CLEAR, stitching=STITCHING)
 
 
 def distances(points, *paths):
@@ -77,7 +75,7 @@ def test_wire_beyond_the_reach_is_infinitely_far():
 def test_no_needle_point_meets_wire_laid_so_far_even_when_rounded(rows, columns, diameter):
     circuit = grid_circuit(rows, columns, diameter, 40.0)
     planned = second_half(circuit)
-    halves = (circuit.first_half, circuit.second_half)
+    halves = circuit.stages
     assert distances(planned, *halves).min() >= CLEAR - 1e-3
     assert distances(quantise(planned) / UNITS_PER_MM, *halves).min() >= TOUCHING
 
@@ -86,7 +84,7 @@ def test_no_needle_point_meets_wire_laid_so_far_even_when_rounded(rows, columns,
 def test_points_alternate_and_stitches_are_sewable(rows, columns, diameter):
     circuit = grid_circuit(rows, columns, diameter, 40.0)
     sewn = quantise(second_half(circuit)) / UNITS_PER_MM
-    side = sides_of(circuit.second_half, sewn[POINTS_PER_LOCK:-POINTS_PER_LOCK])
+    side = sides_of(circuit.stages[1], sewn[POINTS_PER_LOCK:-POINTS_PER_LOCK])
     assert np.all(side[1:] == -side[:-1])
     step = np.diff(sewn, axis=0)
     assert np.abs(step).max() <= 12.1
@@ -123,7 +121,7 @@ def test_beside_an_earlier_wire_the_needle_goes_to_the_nearest_place_beyond():
 
 def test_at_the_second_half_some_points_straddle_and_none_is_far_out():
     circuit = grid_circuit(2, 2, 25.0, 40.0)
-    out = distances(second_half(circuit), circuit.second_half)
+    out = distances(second_half(circuit), circuit.stages[1])
     assert 0 < np.mean(out > CLEAR + 0.01) < 0.3
     assert out.max() < 4 * CLEAR
 
@@ -157,7 +155,7 @@ def test_locks_are_off_the_wire_and_as_long_as_asked(rows, columns, diameter):
     for lock in (sewn[:3], sewn[-3:]):
         assert lock[0] == pytest.approx(lock[2])
         assert np.hypot(*(lock[1] - lock[0])) == pytest.approx(0.7, rel=0.1)
-        assert len(set(sides_of(circuit.second_half, lock).tolist())) == 1
+        assert len(set(sides_of(circuit.stages[1], lock).tolist())) == 1
 
 
 @pytest.mark.parametrize(("loop_mm", "wire_mm"), [(10, 0.2), (12, 0.2), (15, 0.3), (15, 0.25)])

@@ -19,7 +19,9 @@ NEAR = WIRE + STITCHING.cover_reach_mm
 
 
 def covers_of(circuit):
-    return covers(circuit, laid_wire(circuit.first_half), CLEAR, WIRE, STITCHING)
+    laid = laid_wire(circuit.stages[0])
+    settings = {"clear_mm": CLEAR, "wire_diameter_mm": WIRE, "stitching": STITCHING}
+    return covers(circuit, 1, laid, **settings)
 
 
 @pytest.mark.parametrize("diameter", [20.0, 25.0, 50.0])
@@ -31,14 +33,14 @@ def test_span_reaches_to_where_equal_circles_part(diameter):
     angle = np.arccos((5 - (1 + NEAR / radius) ** 2) / 4)
     contact = circuit.crossings[0].first_mm
     reach = radius * angle + STITCHING.cover_spacing_mm
-    assert cover_spans_mm(circuit, WIRE, STITCHING)[0] == pytest.approx(
+    assert cover_spans_mm(circuit, 1, WIRE, STITCHING)[0] == pytest.approx(
         [contact - reach, contact + reach], abs=0.006
     )
 
 
 def test_span_at_the_terminals_reaches_farther_for_the_tail_is_straight():
     circuit = grid_circuit(1, 1, 25, 40)
-    begin, end = cover_spans_mm(circuit, WIRE, STITCHING)[0]
+    begin, end = cover_spans_mm(circuit, 1, WIRE, STITCHING)[0]
     along_tail = np.sqrt((12.5 + 0.0) ** 2 - (12.5 - NEAR) ** 2)
     assert 40 - begin == pytest.approx(np.sqrt((12.5 + NEAR) ** 2 - 12.5**2) + 0.4, abs=0.006)
     assert end - 40 > along_tail
@@ -50,23 +52,22 @@ def test_span_of_straight_wires_that_cross():
     circuit = Circuit(
         Layout((), ()),
         (),
-        WirePath((Line(-20, 0, 20, 0),)),
-        WirePath((Line(*(-20 * slope), *(20 * slope)),)),
-        (Crossing(CrossingKind.CONTACT, 0, 0, 20, 20),),
+        (WirePath((Line(-20, 0, 20, 0),)), WirePath((Line(*(-20 * slope), *(20 * slope)),))),
+        (Crossing(CrossingKind.CONTACT, 0, 0, 20, 60),),
     )
     reach = NEAR / np.sin(np.pi / 6) + STITCHING.cover_spacing_mm
-    assert cover_spans_mm(circuit, WIRE, STITCHING)[0] == pytest.approx(
+    assert cover_spans_mm(circuit, 1, WIRE, STITCHING)[0] == pytest.approx(
         [20 - reach, 20 + reach], abs=0.006
     )
 
 
 @pytest.mark.parametrize(("rows", "columns"), [(1, 1), (2, 3), (4, 4)])
-def test_first_half_is_covered_wherever_the_second_comes_near(rows, columns):
+def test_laid_wire_is_covered_wherever_the_next_stage_comes_near(rows, columns):
     circuit = grid_circuit(rows, columns, 25.0, 40.0)
-    first = circuit.first_half
+    first = circuit.stages[0]
     s = np.arange(0.0, first.length_mm - 3.0, 0.02)
-    near = shapely.distance(shapely.points(first.at(s)[0]), circuit.second_half.line_string(1e-3))
-    spans = cover_spans_mm(circuit, WIRE, STITCHING)
+    near = shapely.distance(shapely.points(first.at(s)[0]), circuit.stages[1].line_string(1e-3))
+    spans = cover_spans_mm(circuit, 1, WIRE, STITCHING)
     covered = np.any((spans[:, :1] < s) & (s < spans[:, 1:]), axis=0)
     assert np.all(covered[near < NEAR - 0.002])
 
@@ -74,13 +75,13 @@ def test_first_half_is_covered_wherever_the_second_comes_near(rows, columns):
 @pytest.mark.parametrize(("rows", "columns"), [(1, 1), (2, 3), (4, 4)])
 def test_satin_alternates_closely_and_misses_the_wire(rows, columns):
     circuit = grid_circuit(rows, columns, 25.0, 40.0)
-    line = circuit.first_half.line_string(5e-4)
+    line = circuit.stages[0].line_string(5e-4)
     for cover in covers_of(circuit):
         body = cover[2:-2]
         at = line.project(shapely.points(body))
         assert np.diff(at).min() > 0
         assert np.diff(at).max() <= STITCHING.cover_spacing_mm + 0.01
-        point, tangent = circuit.first_half.at(at)
+        point, tangent = circuit.stages[0].at(at)
         across = body - point
         side = np.sign(tangent[:, 0] * across[:, 1] - tangent[:, 1] * across[:, 0])
         assert np.all(side[1:] == -side[:-1])
@@ -88,24 +89,23 @@ def test_satin_alternates_closely_and_misses_the_wire(rows, columns):
         assert shapely.distance(rounded, line).min() >= (WIRE + MACHINE.needle_diameter_mm) / 2
 
 
-def test_one_cover_a_crossing_from_the_end_of_the_first_half_back():
+def test_one_cover_a_crossing_from_the_end_of_the_laid_wire_back():
     circuit = grid_circuit(3, 4, 25, 40)
     sewn = covers_of(circuit)
     assert len(sewn) == len(circuit.crossings)
-    line = circuit.first_half.line_string()
+    line = circuit.stages[0].line_string()
     middle = [line.project(shapely.points(cover.mean(axis=0))) for cover in sewn]
     assert middle == sorted(middle, reverse=True)
 
 
 @pytest.mark.parametrize(("start", "end"), [((0, 0), (20, 0)), ((20, 0), (0, 0))])
-def test_a_span_ends_with_the_half(start, end):
+def test_a_span_ends_with_the_laid_wire(start, end):
     circuit = Circuit(
         Layout((), ()),
         (),
-        WirePath((Line(*start, *end),)),
-        WirePath((Line(18, -0.2, 40, 0.9),)),
-        (Crossing(CrossingKind.CONTACT, 19, 0, abs(19 - start[0]), 1),),
+        (WirePath((Line(*start, *end),)), WirePath((Line(18, -0.2, 40, 0.9),))),
+        (Crossing(CrossingKind.CONTACT, 19, 0, abs(19 - start[0]), 21),),
     )
-    span = cover_spans_mm(circuit, WIRE, STITCHING)[0]
+    span = cover_spans_mm(circuit, 1, WIRE, STITCHING)[0]
     assert (span[0] == 0) == (start[0] == 20)
     assert (span[1] == 20) == (end[0] == 20)

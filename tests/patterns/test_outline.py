@@ -47,7 +47,7 @@ def along(outline: Outline) -> np.ndarray:
 
 
 def to_wire_mm(points: np.ndarray, circuit: Circuit) -> np.ndarray:
-    halves = [WireIndex(half) for half in (circuit.first_half, circuit.second_half)]
+    halves = [WireIndex(half) for half in circuit.stages]
     return np.min([half.nearest(points, 50.0).distance_mm for half in halves], axis=0)
 
 
@@ -118,11 +118,13 @@ def test_fabric_that_falls_apart_is_refused() -> None:
     circuit = circuit_of(1, 1)
     far = WirePath((Line(300.0, 300.0, 330.0, 300.0),))
     with pytest.raises(PatternError, match="falls apart"):
-        cut_outline(replace(circuit, second_half=far), WIRE_MM, MARGIN_MM, CORNER_MM)
+        cut_outline(
+            replace(circuit, stages=(circuit.stages[0], far)), WIRE_MM, MARGIN_MM, CORNER_MM
+        )
 
 
 def test_an_edge_is_nearest_to_an_arc_between_its_ends() -> None:
-    wire = WireIndex(circuit_of(1, 1).first_half)
+    wire = WireIndex(circuit_of(1, 1).stages[0])
     start, end = np.array([[-14.0, -30.0]]), np.array([[-14.0, 30.0]])
     places = start + np.linspace(0, 1, 60001)[:, None] * (end - start)
     expected = wire.nearest(places, 50.0).distance_mm.min()
@@ -163,7 +165,7 @@ def test_a_cut_near_or_through_the_wire_is_found() -> None:
 
 def test_a_cut_across_a_tail_is_found_far_from_its_corners() -> None:
     outline, circuit = made()
-    tail = circuit.first_half.pieces[0]
+    tail = circuit.stages[0].pieces[0]
     assert isinstance(tail, Line)
     end, start = np.array([tail.x0_mm, tail.y0_mm]), np.array([tail.x1_mm, tail.y1_mm])
     middle, ahead = (start + end) / 2, (start - end) / np.hypot(*(start - end))

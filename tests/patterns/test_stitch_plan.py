@@ -42,14 +42,16 @@ def distance(points, *paths):
 @cases
 def test_blocks_come_in_the_order_of_making(rows, columns, diameter, wire):
     circuit, plan = plan_of(rows, columns, diameter, wire, CROSS, LETTER)
-    assert [block.kind for block in plan.blocks] == list(BlockKind)
+    order = [BlockKind.MARKS, BlockKind.WIRE, BlockKind.COVER, BlockKind.WIRE]
+    assert [block.kind for block in plan.blocks] == order
+    assert [block.stage for block in plan.blocks] == [0, 0, 1, 1]
     runs = [len(block.runs) for block in plan.blocks]
     assert runs == [2, 1, len(circuit.crossings), 1]
 
 
 def test_without_marks_the_wire_comes_first():
     _, plan = plan_of(1, 1, 25, WIRE)
-    assert plan.blocks[0].kind is BlockKind.WIRE_FIRST
+    assert plan.blocks[0].kind is BlockKind.WIRE
 
 
 @cases
@@ -57,9 +59,9 @@ def test_no_rounded_needle_point_meets_wire_laid_so_far(rows, columns, diameter,
     circuit, plan = plan_of(rows, columns, diameter, wire)
     first, cover, second = (sewn(block) for block in plan.blocks)
     touching = (wire + MACHINE.needle_diameter_mm) / 2
-    assert distance(first, circuit.first_half).min() >= touching
-    assert distance(cover, circuit.first_half).min() >= touching
-    assert distance(second, circuit.first_half, circuit.second_half).min() >= touching
+    assert distance(first, circuit.stages[0]).min() >= touching
+    assert distance(cover, circuit.stages[0]).min() >= touching
+    assert distance(second, *circuit.stages).min() >= touching
 
 
 @cases
@@ -86,7 +88,7 @@ def test_the_machine_arrives_a_millimetre_before_the_first_needle_point(
 @cases
 def test_the_ends_of_the_tails_are_left_for_the_crimp(rows, columns, diameter, wire):
     circuit, plan = plan_of(rows, columns, diameter, wire)
-    tails = (circuit.first_half.at(0)[0][0], circuit.second_half.at(1e6)[0][0])
+    tails = (circuit.stages[0].at(0)[0][0], circuit.stages[1].at(1e6)[0][0])
     for end, block in zip(tails, (plan.blocks[0], plan.blocks[-1]), strict=True):
         assert np.hypot(*(sewn(block) - end).T).min() == pytest.approx(10, abs=0.15)
 
@@ -101,7 +103,7 @@ def test_the_second_half_starts_beside_the_last_hole_of_the_first(rows, columns,
 def test_instructions_tell_wire_and_slack():
     circuit, plan = plan_of(3, 3, 25, WIRE, CROSS)
     marks, first, cover, second = (block.instruction for block in plan.blocks)
-    split = circuit.second_half.at(0.0)[0][0]
+    split = circuit.stages[1].at(0.0)[0][0]
     slack = int(np.ceil(np.hypot(*(sewn(plan.blocks[2]) - split).T).max() - 0.1))
     assert "registration marks" in marks
     assert f"{int(np.ceil(circuit.wire_length_mm))} mm of 0.3 mm wire" in first

@@ -76,7 +76,14 @@ WRONG_VALUES = [
     ("output", 'pictures = "no"', "must be true or false"),
     ("machine", "name = 7", "must be 1 to 80 printable characters on one line"),
     ("machine", 'name = ""', "must be 1 to 80 printable characters on one line"),
-    ("layout", 'kind = "hexagonal"', 'must be "grid"'),
+    (
+        "layout",
+        'kind = "square"',
+        'must be one of "grid", "brick", "hexagonal", "row", "circles"',
+    ),
+    ("layout", 'terminals = "up"', 'must be one of "corner", "left", "right", "top", "bottom"'),
+    ("layout", "missing = [1, 2]", "must be a list, each item a row and a column, …"),
+    ("layout", "circles = [[1, 2]]", "must be a list, each item with three numbers, …"),
     (
         "layout",
         'between = "kept"',
@@ -99,6 +106,22 @@ WRONG_VALUES = [
 ]
 
 WRONG_KEYS_AND_PAIRS = [
+    (
+        "layout",
+        'kind = "hexagonal"',
+        'layout.shape = "cell": must be "none" for layout.kind = "hexagonal": its loops do not …',
+    ),
+    ("layout", 'kind = "row"', 'layout.rows = 4: must be left out for layout.kind = "row"'),
+    (
+        "layout",
+        "missing = [[1, 5]]",
+        "layout.missing: there is no row 1 with a column 5 to leave out",
+    ),
+    (
+        "layout",
+        "circles = [{x_mm = 0, y_mm = 0, diameter_mm = 50}]",
+        'layout.circles: must be left out for layout.kind = "grid"',
+    ),
     (
         "wire",
         "modulus_cold_GPa = 28e9",

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from patterns.plan import BlockKind, StitchPlan
+from patterns.plan import Block, BlockKind, StitchPlan
 from patterns.records import Records, plan_from_records, plan_records
 from sesame_cad.files.dst import decode_dst, write_dst
 from sesame_cad.files.stl import read_stl, write_stl
@@ -16,7 +16,15 @@ from sesame_cad.specification import load_specification
 from sesame_cad.verification import verify
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "large-array.toml"
-KINDS = list(BlockKind)
+EXPECTED = tuple(
+    Block(kind, "", (), stage)
+    for kind, stage in (
+        (BlockKind.MARKS, 0),
+        (BlockKind.WIRE, 0),
+        (BlockKind.COVER, 1),
+        (BlockKind.WIRE, 1),
+    )
+)
 
 
 @pytest.fixture
@@ -36,7 +44,7 @@ def _tamper_stitches(folder, change):
     """Change the plan inside the stitch file."""
     path = "stitch/large-array.dst"
     records = decode_dst((folder / path).read_bytes()).records
-    plan = plan_from_records(records, KINDS, [""] * len(KINDS))
+    plan = plan_from_records(records, EXPECTED)
     changed = change(plan)
     if isinstance(changed, StitchPlan):
         machine = load_specification(EXAMPLE).patterns_machine()

@@ -12,7 +12,7 @@ from patterns.outline import Outline
 from patterns.path import Arc, Line, WirePath
 from patterns.plan import Block, BlockKind, Run, StitchPlan
 from patterns.registration import Mark
-from sesame_cad.pictures.plan import COVER, FIRST, SECOND, loops_in_order, plan_picture
+from sesame_cad.pictures.plan import COVER, STAGES, loops_in_order, plan_picture
 from sesame_cad.pictures.rendering import View, fabric_patch, projected_bounds, render
 from sesame_cad.pictures.shapes import ShapeView, shapes_picture
 
@@ -32,7 +32,7 @@ def two_loops():
         (Line(-20, -20, -20, 0), Arc(-10, 0, 10, np.pi, -np.pi), Arc(10, 0, 10, np.pi, np.pi))
     )
     second = WirePath((Arc(10, 0, 10, 0, np.pi), Arc(-10, 0, 10, 0, -np.pi), Line(-20, 0, -20, 20)))
-    return Circuit(layout, (), first, second, ())
+    return Circuit(layout, (), (first, second), ())
 
 
 def block(kind, *points):
@@ -43,18 +43,18 @@ CORNERS = np.array([(-25.0, -22.0), (25.0, -22.0), (25.0, 22.0), (-25.0, 22.0)])
 MARKS = (Mark(30, 0, (np.array([(28.0, 0.0), (32.0, 0.0)]),)),)
 PLAN = StitchPlan(
     (
-        block(BlockKind.WIRE_FIRST, (-210, -100), (-190, -80)),
+        block(BlockKind.WIRE, (-210, -100), (-190, -80)),
         block(BlockKind.COVER, (-20, -50), (20, -40), (-20, -30), (20, -20)),
-        block(BlockKind.WIRE_SECOND, (-210, 100), (-190, 80)),
+        block(BlockKind.WIRE, (-210, 100), (-190, 80)),
     )
 )
 
 
-def test_the_plan_shows_both_halves_and_the_covers_and_reproduces():
+def test_the_plan_shows_all_stages_and_the_covers_and_reproduces():
     data = plan_picture(two_loops(), PLAN, Outline(CORNERS, ()), MARKS)
     picture = pixels(data)
     # A dot or an arrow head would be less.
-    assert min(count(picture, FIRST), count(picture, SECOND)) > 1000
+    assert min(count(picture, colour) for colour in STAGES[:2]) > 1000
     assert count(picture, COVER) > 0
     assert data == plan_picture(two_loops(), PLAN, Outline(CORNERS, ()), MARKS)
 
@@ -67,7 +67,7 @@ def test_without_a_cover_none_is_shown():
 def test_loops_are_numbered_as_the_wire_reaches_them():
     circuit = two_loops()
     assert loops_in_order(circuit) == (0, 1)
-    turned = Circuit(circuit.layout, (), circuit.second_half, circuit.first_half, ())
+    turned = Circuit(circuit.layout, (), circuit.stages[::-1], ())
     assert loops_in_order(turned) == (1, 0)
 
 

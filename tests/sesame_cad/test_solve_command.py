@@ -66,3 +66,43 @@ def test_no_shape_to_rely_on_is_an_error():
     assert result.exit_code == 1
     assert result.stdout == ""
     assert "not a minimum" in result.stderr
+
+
+def test_every_rung_gives_the_same_keys():
+    keys = []
+    for fidelity in ("scaling", "compact", "mesh"):
+        result = _run("--fidelity", fidelity, "--tolerance", "0.01", "--json")
+        data = json.loads(result.stdout)
+        assert data["rung"] == fidelity
+        assert data["height_over_perimeter"] == pytest.approx(0.1312, rel=0.08)
+        keys.append(set(data) - {"kind", "loop_heights_over_radius", "triangles"})
+    assert keys[0] | {"compressed_fraction"} == keys[1] | {"compressed_fraction"}
+    assert keys[1] | {"compressed_fraction"} == keys[2]
+
+
+def test_arrays_and_ellipses():
+    tiled = json.loads(_run("--loops", "3x3", "--json").stdout)
+    assert tiled["rung"] == "compact"
+    ellipse = json.loads(_run("--axis-ratio", "1.2", "--json").stdout)
+    assert ellipse["height_over_perimeter"] == pytest.approx(0.1294, abs=2e-4)
+    kept = json.loads(
+        _run("--loops", "2x2", "--between", "kept", "--tolerance", "0.05", "--json").stdout
+    )
+    assert kept["rung"] == "mesh"
+    assert len(kept["loop_heights_over_radius"]) == 4
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["--loops", "3by3"], "--loops"),
+        (["--loops", "0x3"], "--loops"),
+        (["--loops", "999x999", "--between", "kept"], "999"),
+        (["--axis-ratio", "0.5"], "axis_ratio"),
+        (["--modulus-ratio", "-1"], "modulus_ratio"),
+        (["--axis-ratio", "2", "--fidelity", "scaling"], "compact"),
+    ],
+)
+def test_scenes_that_cannot_be(arguments, named, faults_of_command):
+    (fault,) = faults_of_command([*LOOP, *arguments])
+    assert named in fault

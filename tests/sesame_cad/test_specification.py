@@ -208,7 +208,7 @@ def test_a_loop_of_just_the_smallest_bend_is_accepted(wire_mm, loop_mm):
 @settings(deadline=None, max_examples=40)
 def test_the_hoop_is_as_large_as_loops_tails_and_marks(rows, columns, loop, tail, wire):
     circuit = grid_circuit(rows, columns, loop, tail)
-    points = circuit.first_half.polyline(1e-4), circuit.second_half.polyline(1e-4)
+    points = [stage.polyline(1e-4) for stage in circuit.stages]
     reach = (
         max(abs(half[:, 0]).max() for half in points),
         max(abs(half[:, 1]).max() for half in points),
@@ -230,7 +230,7 @@ def test_the_hoop_is_as_large_as_loops_tails_and_marks(rows, columns, loop, tail
     around = rim + specification.stitching.mark_gap_mm + specification.stitching.mark_size_mm
     around += APPROACH_MM
     assert needed == pytest.approx([2 * (half + around) for half in reach], abs=1e-3)
-    assert isinstance(circuit.first_half.pieces[0], Line)
+    assert isinstance(circuit.wire.pieces[0], Line)
 
 
 def test_the_schema_describes_every_key_with_default_or_requires_it():
@@ -261,7 +261,7 @@ def test_every_description_names_the_unit():
     for section in sections().values():
         for key, field in section.model_fields.items():
             unit = next((text for end, text in UNITS.items() if key.endswith(f"_{end}")), None)
-            names = UNITLESS if unit is None else (unit,)
+            names = (*UNITLESS, "in mm") if unit is None else (unit,)
             assert any(name in field.description for name in names), key
 
 

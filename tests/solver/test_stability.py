@@ -1,11 +1,22 @@
 import numpy as np
 import pytest
 
+from solver.checks import smallest_principal_stress
+from solver.circle import telling_degree
 from solver.compact import solve_loop
+from solver.disc_basis import disc_basis
 from solver.flat import flat_shape
+from solver.loop_energy import scene_membrane
 from solver.reading import Reading
 from solver.scene import LoopScene
-from solver.stability import CLASSES, class_hessian, free_motions, lowest_eigenvalue
+from solver.shape import from_expansion
+from solver.stability import (
+    CLASSES,
+    class_hessian,
+    free_motions,
+    lowest_eigenvalue,
+    weakest_motion,
+)
 from solver.symmetry import mirror_class
 from solver.threshold import critical_beta
 
@@ -57,3 +68,25 @@ def test_the_third_mode_follows_at_twice_the_beta():
         eigenvalues = np.linalg.eigvalsh(hessian[np.ix_(rises, rises)])
         tilt = np.argmin(np.abs(eigenvalues))  # a rigid rotation, which costs nothing
         assert np.sign(np.delete(eigenvalues, tilt)[0]) == sign
+
+
+@pytest.mark.parametrize(("beta", "strain"), [(0.0145, 0.3), (0.03, 0.5), (0.007, 0.2)])
+def test_few_motions_tell_the_stability_of_taut_fabric(beta, strain):
+    """Those up to the telling degree come near to those of all degrees."""
+    scene = LoopScene(strain, beta, 0.3)
+    basis = disc_basis(9, "saddle")
+    q = from_expansion(basis.unknowns, solve_loop(scene).shape.expansion)
+    stress = smallest_principal_stress(scene_membrane(scene), basis.gradient @ q)
+    assert stress > 0
+    few, all_ = (
+        weakest_motion(scene, "saddle", basis, q, highest).eigenvalue
+        for highest in (telling_degree(scene, stress, 9), 10)
+    )
+    assert telling_degree(scene, stress, 9) < 10
+    assert all_ <= few < 1.05 * all_
+
+
+def test_slack_fabric_and_thin_wire_need_motions_of_all_degrees():
+    assert telling_degree(LoopScene(0.3, 0.0145, 0.3), -0.01, 9) == 10
+    assert telling_degree(LoopScene(0.3, 1e-4, 0.3), 0.1, 17) == 18
+    assert telling_degree(LoopScene(0.3, 1e-3, 0.3), 0.1, 17) == 16

@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
 
-from solver.disc_basis import position_map
-from solver.symmetry import mirror_class, saddle
+from solver.disc_basis import disc_basis, position_map, transfer
+from solver.disc_functions import DiscFunction
+from solver.shape import from_expansion
+from solver.symmetry import DIAGONAL, HALF_TURN, displacements, mirror_class, saddle
 
 R = np.array([0.3, 0.8, 1.0])
 THETA = np.array([0.2, 1.1, 2.5])
@@ -38,3 +40,21 @@ def test_the_classes_together_are_all_polynomials():
     count = sum(len(mirror_class(5, x, y)) for x in (0, 1) for y in (0, 1))
     polynomials = (6 + 1) * (6 + 2) // 2
     assert count == 3 * polynomials
+
+
+def test_oblique_shapes_and_a_turn_are_all_with_a_half_turn():
+    """The turn of the flat disc about z is kept out, and nothing else is."""
+    whole, part = disc_basis(5, HALF_TURN), disc_basis(5, "oblique")
+    x, y = DiscFunction(1, 0, "cos"), DiscFunction(1, 0, "sin")
+    turn = from_expansion(whole.unknowns, {(0, y): -1.0, (1, x): 1.0})
+    into = transfer(part, whole)
+    assert part.size == whole.size - 1
+    assert np.linalg.matrix_rank(into) == part.size
+    assert turn @ into == pytest.approx(np.zeros(part.size))
+
+
+def test_diagonal_shapes_know_three_half_turns():
+    unknowns = displacements(5, DIAGONAL)
+    here = position_map(unknowns, R, THETA)
+    for angle, turn in ((-THETA, [1, -1, -1]), (np.pi - THETA, [-1, 1, -1])):
+        assert np.array(turn)[:, None] * position_map(unknowns, R, angle) == pytest.approx(here)

@@ -1,0 +1,101 @@
+"""The numbers of a dimensionless solve as plain data, on whichever rung it was done."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # the scaling rung must not load what the others need
+    from solver.equilibrium import Equilibrium
+    from solver.ladder.answer import Answer
+    from solver.mesh.equilibrium import MeshEquilibrium
+
+Data = dict[str, Any]
+
+
+def answer_data(answer: Answer, seconds: float) -> Data:
+    """Keys of `sesame-cad solve`; null where a rung cannot tell or a length in SI units is needed.
+
+    The same for every rung: those of a solved loop, then which rung and why, what is in the energy,
+    and the estimated error of the height.
+    """
+    found = answer.equilibrium
+    if found is None:
+        details = _law_data(answer)
+    elif hasattr(found, "shape"):
+        details = _loop_data(found)  # pyright: ignore[reportArgumentType]
+    else:
+        details = _mesh_data(found)  # pyright: ignore[reportArgumentType]
+    return {
+        "buckled": answer.buckled,
+        "height_mm": None,
+        "height_over_perimeter": answer.height_over_perimeter,
+        "pitch_mm": None,
+        "energy_mJ": None,
+        **details,
+        "seconds": round(seconds, 6),
+        "omitted_terms": [
+            {
+                "term": left.term,
+                "measure": left.measure,
+                "value": None if math.isnan(left.value) else left.value,
+                "matters": left.matters,
+            }
+            for left in answer.omitted
+        ],
+        "rung": str(answer.rung),
+        "reason": answer.reason,
+        "terms": list(answer.terms),
+        "height_error": answer.height_error if math.isfinite(answer.height_error) else None,
+    }
+
+
+def _law_data(answer: Answer) -> Data:
+    return {
+        "height_over_radius": 2 * math.pi * answer.height_over_perimeter,
+        "pitch_over_diameter": None,
+        "energy": None,
+        "energy_terms": None,
+        "status": "converged",
+        "gradient_norm": None,
+        "lowest_eigenvalue": None,
+        "steps": 0,
+        "factorizations": 0,
+        "unknowns": 0,
+        "height_change": None,
+    }
+
+
+def _loop_data(found: Equilibrium) -> Data:
+    return {
+        "height_over_radius": found.shape.height,
+        "pitch_over_diameter": found.shape.width / 2,
+        "height_change": found.height_change,
+        "kind": str(found.kind),
+        **_account(found),
+    }
+
+
+def _mesh_data(found: MeshEquilibrium) -> Data:
+    return {
+        "height_over_radius": found.height,
+        "pitch_over_diameter": None,
+        "height_change": abs(found.height - found.coarser_height),
+        "loop_heights_over_radius": [float(height) for height in found.loop_heights],
+        "triangles": len(found.mesh.triangles),
+        "compressed_fraction": found.compressed_fraction,
+        **_account(found),
+    }
+
+
+def _account(found: Equilibrium | MeshEquilibrium) -> Data:
+    return {
+        "energy": found.energy,
+        "energy_terms": found.energy_terms,
+        "status": found.status,
+        "gradient_norm": found.gradient_norm,
+        "lowest_eigenvalue": found.lowest_eigenvalue,
+        "steps": found.steps,
+        "factorizations": found.factorizations,
+        "unknowns": found.unknowns,
+    }

@@ -1,0 +1,1 @@
+"""The ladder: from a law in microseconds to a mesh of everything."""

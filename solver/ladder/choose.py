@@ -1,0 +1,101 @@
+"""Which rung a scene requires.
+
+A user asks for a tolerance; `solve_scene` takes the cheapest rung that meets it, looks back at what
+the model left out, adds what turned out to matter where it can, and says the rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from solver.compact import solve_loop
+from solver.errors import SceneError
+from solver.ladder.answer import Answer, Rung
+from solver.ladder.fidelity import Fidelity
+from solver.ladder.law import by_law, law_error
+from solver.ladder.meshed import by_array_mesh, by_loop_mesh
+from solver.mesh.array_mesh import Between
+from solver.mesh.scene import ArrayScene, Contact
+from solver.scene import LoopScene
+
+_ASKED = "asked for"
+
+
+def solve_scene(
+    scene: LoopScene | ArrayScene,
+    *,
+    fidelity: Fidelity = Fidelity.AUTO,
+    tolerance: float = 1e-3,
+    allow_unreliable: bool = False,
+) -> Answer:
+    """Solve a scene on the rung that is asked for, or on the cheapest that meets the tolerance.
+
+    Parameters
+    ----------
+    tolerance : float
+        Error of the height that is allowed, relative to it.
+    allow_unreliable : bool
+        Give the shape even where it must not be relied on.
+
+    Raises
+    ------
+    SceneError
+        When the rung cannot do the scene; the message names the one that can.
+    NotConvergedError
+        When there is no shape to rely on.
+    """
+    if isinstance(scene, ArrayScene):
+        return _solve_array(scene, fidelity, tolerance, lenient=allow_unreliable)
+    if fidelity is Fidelity.SCALING:
+        return by_law(scene, _ASKED)
+    if fidelity is Fidelity.MESH:
+        return by_loop_mesh(scene, _ASKED, tolerance, lenient=allow_unreliable)
+    reason = _ASKED
+    if fidelity is Fidelity.AUTO:
+        error = law_error(scene)
+        if error <= tolerance:
+            return by_law(scene, f"its error, at most {error:.2g}, is within the tolerance")
+        reason = "a smooth basis is the cheapest that meets the tolerance for one loop"
+    return _by_compact(scene, reason, tolerance, lenient=allow_unreliable)
+
+
+def _by_compact(scene: LoopScene, reason: str, tolerance: float, *, lenient: bool) -> Answer:
+    found = solve_loop(scene, tolerance=tolerance, allow_unreliable=lenient)
+    return Answer(
+        rung=Rung.COMPACT,
+        reason=reason,
+        buckled=found.buckled,
+        height_over_perimeter=found.shape.height_over_perimeter,
+        height_error=found.height_change,
+        terms=tuple(found.energy_terms),
+        omitted=found.omitted,
+        equilibrium=found,
+    )
+
+
+def _tiles(scene: ArrayScene) -> bool:
+    """Whether one loop is all there is to solve: equal loops, gaps cut, wires side by side."""
+    return (
+        scene.between is Between.CUT
+        and scene.contact is Contact.BONDED
+        and len(set(scene.stiffness)) == 1
+        and scene.loop.isotropic_circle
+    )
+
+
+def _solve_array(
+    scene: ArrayScene, fidelity: Fidelity, tolerance: float, *, lenient: bool
+) -> Answer:
+    if scene.rows * scene.columns == 1:
+        return solve_scene(
+            scene.loop, fidelity=fidelity, tolerance=tolerance, allow_unreliable=lenient
+        )
+    if fidelity is not Fidelity.MESH and _tiles(scene):
+        wire = scene.stiffness[0]
+        loop = replace(scene.loop, beta=wire.beta, axial_stiffness=wire.axial_stiffness)
+        one = solve_scene(loop, fidelity=fidelity, tolerance=tolerance, allow_unreliable=lenient)
+        return replace(one, reason=f"equal loops with cut gaps tile: one is solved; {one.reason}")
+    if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
+        raise SceneError(f"these loops do not tile; {fidelity} solves one loop, mesh solves arrays")
+    reason = _ASKED if fidelity is Fidelity.MESH else "the loops of this array act on each other"
+    return by_array_mesh(scene, reason, tolerance, lenient=lenient)

@@ -1,0 +1,66 @@
+"""Energy of a mesh as the sum of its families of elements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.mesh.assembly import FamilyAssembly, LowerPattern, block_pattern, family_assembly
+from solver.mesh.elements import Curvature, Elements
+
+Vectors = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MeshEnergy:
+    """Energy of n vertices, units of E_f t R².
+
+    Attributes
+    ----------
+    families : mapping
+        Elements by the name of their term.
+    assemblies : mapping
+        Where each family's derivatives go.
+    pattern : LowerPattern
+        Of the Hessian.
+    """
+
+    families: Mapping[str, Elements]
+    assemblies: Mapping[str, FamilyAssembly]
+    pattern: LowerPattern
+
+    def terms(self, positions: Vectors) -> dict[str, float]:
+        """Energy by term at positions (n, 3)."""
+        return {
+            name: float(elements.energies(positions[elements.vertices]).sum())
+            for name, elements in self.families.items()
+        }
+
+    def value(self, positions: Vectors) -> float:
+        """Energy at positions (n, 3)."""
+        return sum(self.terms(positions).values())
+
+    def derivatives(
+        self, positions: Vectors, curvature: Curvature = Curvature.TRUE
+    ) -> tuple[float, Vectors, Vectors]:
+        """Energy, gradient (n, 3) and the entries (nnz,) of the Hessian's lower triangle."""
+        value = 0.0
+        gradient = np.zeros(self.pattern.size)
+        entries = np.zeros(len(self.pattern.rows))
+        for name, elements in self.families.items():
+            found = elements.derivatives(positions[elements.vertices], curvature)
+            value += float(found[0].sum())
+            gradient += self.assemblies[name].gradient(found[1], self.pattern.size)
+            entries += self.assemblies[name].hessian(found[2], len(self.pattern.rows))
+        return value, gradient.reshape(-1, 3), entries
+
+
+def mesh_energy(families: Mapping[str, Elements], vertices: int) -> MeshEnergy:
+    """Sum of families of elements on so many vertices; empty families are left out."""
+    present = {name: e for name, e in families.items() if len(e.vertices)}
+    blocks = block_pattern([e.vertices for e in present.values()], vertices)
+    assemblies = {name: family_assembly(e.vertices, blocks) for name, e in present.items()}
+    return MeshEnergy(present, assemblies, blocks.lower())

@@ -1,0 +1,292 @@
+"""Minimisation with sparse second derivatives in a trust region.
+
+The true Hessian is tried first. Where its factorisation shows negative pivots, the convex part of
+the elements' Hessians takes over as the metric, and the true Hessian still shapes the step: it
+leaves saddle points along their negative directions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.mesh.elements import Curvature
+from solver.mesh.factorization import Factored, Factoriser
+from solver.mesh.krylov import QuadraticModel, Step, symmetric_product, trust_region_step
+from solver.mesh.mesh_energy import MeshEnergy
+
+Vectors = NDArray[np.float64]
+
+_FREE_MOTION = 1e-5
+"""Stiffness, in units of E_f t, lent to motions that have none, such as rigid ones."""
+_CONVEX_FREE_MOTION = 1e-4
+_ROUNDING = 1e-13
+_NEXT_TO_NOTHING = 1e-9
+"""Part of the energy that a minimum may lack along an all but free motion."""
+_ALL_BUT_FREE = 1e-3
+"""Largest stiffness of such a motion, in units of E_f t."""
+_SMALL_GRADIENT = 1e-4
+"""Largest component of the gradient while it lasts."""
+_SMALLEST_RADIUS = 1e-12
+_LONGEST_MOVE = 0.5
+"""Of any vertex in one step, in units of R."""
+
+
+@dataclass(frozen=True)
+class SearchLimits:
+    """When a minimisation ends, and how far its first step may go.
+
+    Attributes
+    ----------
+    gradient : float
+        Largest component of the gradient at a minimum.
+    decrease : float
+        Ends, unconverged, when the model promises less than this fraction of the energy; 0 never.
+    radius : float
+        Of the first trust region: the square root of twice an energy.
+    steps : int
+        At most.
+    steady : bool
+        Whether steps are found with `Curvature.STEADY`, for fabric whose stiffness has kinks; such
+        a minimisation also ends where next to nothing is left to gain.
+    """
+
+    gradient: float = 1e-8
+    decrease: float = 0.0
+    radius: float = 0.3
+    steps: int = 500
+    steady: bool = False
+
+
+@dataclass(frozen=True)
+class SparseMinimum:
+    """Where a minimisation ended.
+
+    Attributes
+    ----------
+    positions : array (n, 3)
+    value, gradient_norm : float
+        Energy, and the largest component of its gradient.
+    entries : array (nnz,)
+        Of the Hessian there.
+    factored : Factored
+        Its factorisation, with a little stiffness lent to free motions, when converged.
+    negative : int
+        Negative eigenvalues of the Hessian, beyond those of free motions.
+    steps, factorizations : int
+    converged : bool
+        Whether the gradient is small and no eigenvalue is negative.
+    """
+
+    positions: Vectors
+    value: float
+    gradient_norm: float
+    entries: Vectors
+    factored: Factored
+    negative: int
+    steps: int
+    factorizations: int
+    converged: bool
+
+
+@dataclass
+class _Account:
+    steps: int = 0
+    factorizations: int = 0
+
+
+@dataclass(frozen=True)
+class _State:
+    """Energy and its derivatives at a shape."""
+
+    positions: Vectors
+    value: float
+    gradient: Vectors
+    entries: Vectors
+
+    @property
+    def gradient_norm(self) -> float:
+        return float(np.abs(self.gradient).max())
+
+
+@dataclass(frozen=True)
+class _Search:
+    energy: MeshEnergy
+    mass: Vectors
+    factoriser: Factoriser
+    limits: SearchLimits
+    account: _Account
+
+    def state(self, positions: Vectors) -> _State:
+        curvature = Curvature.STEADY if self.limits.steady else Curvature.TRUE
+        return _State(positions, *self.energy.derivatives(positions, curvature))
+
+    def true_state(self, state: _State) -> _State:
+        """Give the same with its true Hessian."""
+        return _State(state.positions, *self.energy.derivatives(state.positions))
+
+    def held(self, entries: Vectors, stiffness: float) -> Vectors:
+        """Lend every motion a little stiffness, more than the rounding of the entries."""
+        diagonal = self.energy.pattern.diagonal
+        rounding = _ROUNDING * float(np.linalg.norm(entries[diagonal]))
+        out = entries.copy()
+        out[diagonal] += max(stiffness, rounding) * self.mass
+        return out
+
+    def factored(self, entries: Vectors) -> Factored:
+        self.account.factorizations += 1
+        return self.factoriser.factorise(entries)
+
+    def model(self, state: _State, true_entries: Vectors, factored: Factored) -> QuadraticModel:
+        pattern = self.energy.pattern
+        hessian = symmetric_product(pattern, true_entries)
+        gradient = state.gradient.ravel()
+        if factored.negative == 0:
+            return QuadraticModel(gradient, hessian, hessian, factored.solve, convex=True)
+        convex = self.energy.derivatives(state.positions, Curvature.CONVEX)[2]
+        convex = self.held(convex, _CONVEX_FREE_MOTION)
+        inverse = self.factored(convex).solve
+        metric = symmetric_product(pattern, convex)
+        return QuadraticModel(gradient, hessian, metric, inverse, convex=False)
+
+
+@dataclass(frozen=True)
+class _Tried:
+    """A trial of a step: where it led, and how that compares with the model's promise."""
+
+    positions: Vectors
+    accepted: bool
+    radius: float
+
+
+def _noise(value: float) -> float:
+    return _ROUNDING * max(1.0, abs(value))
+
+
+def _lengthened(
+    energy: MeshEnergy, positions: Vectors, move: Vectors, value: float
+) -> tuple[float, float]:
+    """Double a step that went well for as long as the energy falls; its factor and the energy.
+
+    In the curved valleys of a stiff wire the model promises less than it could.
+    """
+    factor = 1.0
+    while 2 * factor * float(np.abs(move).max()) < _LONGEST_MOVE:
+        further = energy.value(positions + 2 * factor * move)
+        if not further < value:
+            break
+        factor, value = 2 * factor, further
+    return factor, value
+
+
+def _tried(
+    search: _Search, state: _State, model: QuadraticModel, step: Step, radius: float
+) -> _Tried:
+    """Try a step and adapt the trust region's radius to what it brought."""
+    move = step.displacement.reshape(-1, 3)
+    move = move * min(1.0, _LONGEST_MOVE / max(float(np.abs(move).max()), 1e-300))
+    promised = model.change(move.ravel())
+    length = model.length(move.ravel())
+    value = search.energy.value(state.positions + move)
+    noise = _noise(state.value)
+    if abs(promised) < 10 * noise:
+        # below rounding the energy tells nothing: the step is taken on trust
+        trusted = abs(value - state.value) < 100 * noise
+        return _Tried(state.positions + move, trusted, 2 * radius if trusted else 0.25 * length)
+    ratio = (value - state.value) / promised if promised < 0 else -1.0
+    if not ratio > 0.25:  # also when the energy is not a number
+        return _Tried(state.positions + move, ratio > 1e-4, 0.25 * length)
+    factor, value = _lengthened(search.energy, state.positions, move, value)
+    if ratio > 0.75 and (step.bounded or factor > 1):
+        radius = max(radius, max(2.0, factor) * length)
+    return _Tried(state.positions + factor * move, accepted=True, radius=radius)
+
+
+def _free_to_drift(search: _Search, state: _State, model: QuadraticModel) -> bool:
+    """Whether all that is left is a motion that is all but free, and next to nothing to gain.
+
+    Such is the turn of a round loop's fabric under its saddle: the gradient may take many steps
+    along it to vanish while the energy no longer changes.
+    """
+    if not model.convex or state.gradient_norm > _SMALL_GRADIENT:
+        return False
+    step = model.inverse(model.gradient)
+    gain = float(model.gradient @ step)
+    free = gain <= _ALL_BUT_FREE * float(step @ (search.mass * step))
+    return (free or search.limits.steady) and gain <= 2 * _NEXT_TO_NOTHING * abs(state.value)
+
+
+def _at_rest(search: _Search, state: _State, model: QuadraticModel) -> bool:
+    """Whether nothing pulls any more, and the model has no way down."""
+    still = model.convex and state.gradient_norm <= search.limits.gradient
+    return still or _free_to_drift(search, state, model)
+
+
+def _stepped(search: _Search, state: _State, model: QuadraticModel, radius: float) -> _Tried:
+    """Try steps until one is accepted; the last one is not when the limits end the search."""
+    limits, account = search.limits, search.account
+    while True:
+        step = trust_region_step(model, radius)
+        promised = -model.change(step.displacement)
+        spent = account.steps >= limits.steps or radius < _SMALLEST_RADIUS
+        if spent or promised < limits.decrease * abs(state.value):
+            return _Tried(state.positions, accepted=False, radius=radius)
+        account.steps += 1
+        tried = _tried(search, state, model, step, radius)
+        if tried.accepted:
+            return tried
+        radius = tried.radius
+
+
+def _ended(search: _Search, state: _State, factored: Factored, *, converged: bool) -> SparseMinimum:
+    return SparseMinimum(
+        positions=state.positions,
+        value=state.value,
+        gradient_norm=state.gradient_norm,
+        entries=state.entries,
+        factored=factored,
+        negative=factored.negative,
+        steps=search.account.steps,
+        factorizations=search.account.factorizations,
+        converged=converged,
+    )
+
+
+def minimise_sparse(
+    energy: MeshEnergy,
+    positions: Vectors,
+    mass: Vectors,
+    factoriser: Factoriser,
+    limits: SearchLimits | None = None,
+) -> SparseMinimum:
+    """Go downhill from positions (n, 3) to a minimum.
+
+    Parameters
+    ----------
+    mass : array (n,)
+        Weight of each vertex in the mean square of a displacement, greater than 0.
+    factoriser : Factoriser
+        For the energy's pattern.
+    """
+    limits = limits or SearchLimits()
+    search = _Search(energy, np.repeat(mass, 3), factoriser, limits, _Account())
+    state = search.state(positions)
+    radius = limits.radius
+    while True:
+        entries = search.held(state.entries, _FREE_MOTION)
+        factored = search.factored(entries)
+        model = search.model(state, entries, factored)
+        if _at_rest(search, state, model):
+            if limits.steady:
+                state = search.true_state(state)
+                entries = search.held(state.entries, _FREE_MOTION)
+                factored = search.factored(entries)
+            if factored.negative == 0:
+                return _ended(search, state, factored, converged=True)
+            model = search.model(state, entries, factored)
+        tried = _stepped(search, state, model, radius)
+        if not tried.accepted:
+            return _ended(search, state, factored, converged=False)
+        state, radius = search.state(tried.positions), tried.radius

@@ -1,0 +1,62 @@
+"""Motions that cost no energy, and the lowest eigenvalue without them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.mesh.factorization import Factored
+from solver.mesh.krylov import Product
+
+Vectors = NDArray[np.float64]
+
+_BLOCK = 3
+_MOST_ITERATIONS = 30
+_TOLERANCE = 1e-3
+
+
+def rigid_motions(positions: Vectors, mass: Vectors) -> Vectors:
+    """Translations and turns of a shape, (3n, 6), orthonormal in the mean square by mass (n,)."""
+    arms = positions - mass @ positions / mass.sum()
+    axes = np.eye(3)
+    shifts: list[Vectors] = [np.tile(axis, len(arms)) for axis in axes]
+    turns: list[Vectors] = [np.asarray(np.cross(axis, arms), np.float64).ravel() for axis in axes]
+    return _orthonormal(np.stack(shifts + turns, axis=1), np.repeat(mass, 3))
+
+
+def _orthonormal(columns: Vectors, weights: Vectors) -> Vectors:
+    root = np.sqrt(weights)[:, None]
+    return np.linalg.qr(root * columns)[0] / root
+
+
+def lowest_eigenvalue(
+    hessian: Product, factored: Factored, positions: Vectors, mass: Vectors
+) -> float:
+    """Lowest λ of H v = λ M v with the rigid motions taken out, by inverse iteration on a block.
+
+    It is the energy's curvature, in units of E_f t, along a displacement with a mean square of 1
+    over the area of one loop.
+
+    Parameters
+    ----------
+    hessian : callable
+        Product with H.
+    factored : Factored
+        Of H, or of H with a little stiffness lent to every motion.
+    positions : array (n, 3)
+    mass : array (n,)
+    """
+    weights = np.repeat(mass, 3)
+    rigid = rigid_motions(positions, mass)
+    block = np.random.default_rng(0).normal(size=(len(weights), _BLOCK))
+    value = np.inf
+    for _ in range(_MOST_ITERATIONS):
+        block -= rigid @ (rigid.T @ (weights[:, None] * block))
+        block = _orthonormal(block, weights)
+        image = np.stack([hessian(column) for column in block.T], axis=1)
+        values, modes = np.linalg.eigh(block.T @ image)
+        previous, value = value, float(values[0])
+        if abs(value - previous) <= _TOLERANCE * abs(values[-1]):
+            break
+        block = factored.solve(np.ascontiguousarray(weights[:, None] * (block @ modes)))
+    return value

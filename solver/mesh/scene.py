@@ -1,0 +1,81 @@
+"""What the mesh can solve: one loop, or a grid of loops that touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from solver.errors import SceneError
+from solver.mesh.array_mesh import Between, Grid
+from solver.mesh.rod_energy import WireStiffness
+from solver.scene import LoopScene
+
+LARGEST_GRID = 400
+"""Loops; as far as the mesh has been tried."""
+
+
+class Contact(StrEnum):
+    """How loops hold each other where they touch."""
+
+    BONDED = "bonded"
+    """Side by side: the wires share the point of contact and their tangents stay parallel."""
+    POINT = "point"
+    """The wires share the point of contact and may turn about it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ArrayScene:
+    """A grid of equal loops at the pitch at which they touch, on one piece of fabric.
+
+    Attributes
+    ----------
+    loop : LoopScene
+        Each of the loops.
+    rows, columns : int
+        Loops along y and along x.
+    between : Between
+        Whether the fabric in the gaps that four loops enclose is cut away or kept.
+    contact : Contact
+    wires : tuple of WireStiffness
+        Of each loop, row by row; empty when all are as in ``loop``.
+
+    Raises
+    ------
+    SceneError
+        When a number is out of its range.
+    """
+
+    loop: LoopScene
+    rows: int
+    columns: int
+    between: Between
+    contact: Contact = Contact.BONDED
+    wires: tuple[WireStiffness, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.rows < 1 or self.columns < 1 or self.rows * self.columns > LARGEST_GRID:
+            raise SceneError(
+                f"{self.rows} × {self.columns} loops: there must be 1 to {LARGEST_GRID} of them"
+            )
+        if self.wires and len(self.wires) != self.rows * self.columns:
+            raise SceneError(
+                f"{len(self.wires)} wires for {self.rows * self.columns} loops: give one for each, "
+                "row by row"
+            )
+        if any(not (wire.beta > 0 and wire.axial_stiffness > 0) for wire in self.wires):
+            raise SceneError("beta and axial_stiffness of every wire must be greater than 0")
+
+    @property
+    def grid(self) -> Grid:
+        """Arrangement of the loops."""
+        return Grid(self.rows, self.columns)
+
+    @property
+    def stiffness(self) -> tuple[WireStiffness, ...]:
+        """Each loop's wire, row by row."""
+        return self.wires or (loop_wire(self.loop),) * (self.rows * self.columns)
+
+
+def loop_wire(scene: LoopScene) -> WireStiffness:
+    """Wire of a loop."""
+    return WireStiffness(scene.beta, scene.axial_stiffness, scene.natural_curvature)

@@ -1,0 +1,106 @@
+"""Where a solve begins: flat, with a little of the shape into which the flat state buckles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.mesh.krylov import symmetric_product
+from solver.mesh.mesh_energy import MeshEnergy
+from solver.mesh.triangulation import Mesh, embedded
+
+Vectors = NDArray[np.float64]
+
+_AMPLITUDE = 0.1
+_ALIKE = 1e-6
+
+
+def _disc_coordinates(mesh: Mesh) -> Vectors:
+    """Points (n, 2) relative to the first loop's middle, in units of its semi-axes."""
+    first = mesh.rounds[0]
+    return (mesh.points - first.centre) / np.array(first.semi_axes)
+
+
+def loop_start(energy: MeshEnergy, mesh: Mesh, radius: float) -> Vectors:
+    """Positions (n, 3) of one loop, lifted along the softer of the two saddles if that is unstable.
+
+    The saddle x² − y² has its crests on the axes of an ellipse, x y between them. On a round loop
+    they are alike, and the first is taken.
+
+    Parameters
+    ----------
+    radius : float
+        Factor by which the flat loop has contracted, so that the fabric's pull is in the wire.
+    """
+    x, y = _disc_coordinates(mesh).T
+    lifts = np.zeros((len(x), 3, 2))
+    lifts[:, 2, 0], lifts[:, 2, 1] = x * x - y * y, 2 * x * y
+    flat = embedded(radius * mesh.points)
+    hessian = symmetric_product(energy.pattern, energy.derivatives(flat)[2])
+    stiffness = [float(lift @ hessian(lift)) for lift in lifts.reshape(-1, 2).T]
+    aligned, diagonal = stiffness
+    softer = 1 if diagonal < aligned - _ALIKE * abs(aligned) else 0
+    # where both are stiff, flat is where to begin
+    return flat + (_AMPLITUDE * lifts[:, :, softer] if stiffness[softer] < 0 else 0.0)
+
+
+def array_start(mesh: Mesh) -> Vectors:
+    """Positions (n, 3) of a grid, lifted along saddles with their crests on the contacts along x.
+
+    The surface cos πy − cos πx is smooth from loop to loop and level in the gaps' middles.
+    """
+    x, y = _disc_coordinates(mesh).T
+    positions = embedded(mesh.points)
+    positions[:, 2] = _AMPLITUDE / 2 * (np.cos(np.pi * y) - np.cos(np.pi * x))
+    return positions
+
+
+def _images(points: Vectors) -> list[tuple[NDArray[np.int64], Vectors]]:
+    """Symmetries of the saddle: where each flat point (n, 2) goes, and the map (3, 3) with it."""
+    key = np.lexsort(np.round(points, 9).T)
+    out: list[tuple[NDArray[np.int64], Vectors]] = []
+    for quarter in (0, 1):
+        swap = np.array([[0.0, 1.0], [1.0, 0.0]]) if quarter else np.eye(2)
+        for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+            flat = np.diag(signs) @ swap
+            position = np.empty(len(points), dtype=np.int64)
+            position[np.lexsort(np.round(points @ flat.T, 9).T)] = key
+            whole = np.eye(3)
+            whole[:2, :2], whole[2, 2] = flat, -1.0 if quarter else 1.0
+            out.append((position, whole))
+    return out
+
+
+def aligned_saddle(loop: Mesh, solved: Vectors) -> Vectors:
+    """Positions (n, 3) of a round loop's saddle, its crests turned to the x axis.
+
+    On its own mesh the saddle rests a little turned at times, since the fabric's turn is all but
+    free; the mean over the saddle's eight symmetries undoes that.
+    """
+    middle = solved - solved[loop.wires[0].vertices].mean(axis=0)
+    images = [(middle @ whole)[position] for position, whole in _images(loop.points)]
+    return np.mean(images, axis=0)
+
+
+def tiled_start(mesh: Mesh, loop: Mesh, solved: Vectors) -> Vectors:
+    """Positions (n, 3) of a grid whose gaps are cut, made of copies of one loop's saddle.
+
+    Parameters
+    ----------
+    loop : Mesh
+        Of one loop, refined as often as ``mesh``.
+    solved : array (N, 3)
+        Its positions, with crests on the x axis, axis upright.
+    """
+    wire = solved[loop.wires[0].vertices]
+    quarter = len(wire) // 4
+    pitch = np.array([np.ptp(wire[[0, 2 * quarter], 0]), np.ptp(wire[[quarter, 3 * quarter], 1])])
+    spacing = 2 * np.array(mesh.rounds[0].semi_axes)
+    origin = np.array(mesh.rounds[0].centre)
+    positions = np.empty((len(mesh.points), 3))
+    for k, region in enumerate(mesh.rounds):
+        # triangles of every loop come in the same order
+        vertices = mesh.triangles[mesh.region == k]
+        shift = (np.array(region.centre) - origin) / spacing * pitch
+        positions[vertices] = solved[loop.triangles] + np.array([shift[0], shift[1], 0.0])
+    return positions

@@ -1,0 +1,152 @@
+"""Solve in one basis after the other until the height stands still.
+
+The bases are nested, so that each solve starts from the one before it. The height's change from
+basis to basis is the estimate of the error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.disc_basis import DiscBasis, Space, disc_basis, transfer
+from solver.loop_energy import LoopEnergy, loop_energy
+from solver.newton import Minimum, minimise
+from solver.saddle_rows import crest_less_valley
+from solver.scene import LoopScene
+from solver.shape import LoopShape
+from solver.stiff_newton import stiff_minimum, tension_of
+
+Vectors = NDArray[np.float64]
+
+DEGREES = (5, 7, 9, 11, 13, 17, 21, 25)
+"""Degrees of the successive bases: of the saddle's, 10 to 140 unknowns."""
+
+_GRADIENT_TOLERANCE = 1e-8
+_ROUGHLY = 1e-6
+_SOFTER = 1e4
+_MOST_STEPS = 120
+_LARGE = 50
+_MOST_STEPS_OF_LARGE = 20
+"""Where a large basis does not follow from a smaller one at once, the shape has no smooth limit."""
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A stationary shape in the last of a sequence of nested bases, and what all of them took.
+
+    ``height_change`` is relative; ``steps`` and ``factorizations`` are those of all bases.
+    """
+
+    space: Space
+    energy: LoopEnergy
+    minimum: Minimum
+    height: float
+    height_change: float
+    steps: int
+    factorizations: int
+
+    @property
+    def basis(self) -> DiscBasis:
+        """The last basis."""
+        return self.energy.basis
+
+    @property
+    def unknowns(self) -> Vectors:
+        """Coefficients of the shape."""
+        return self.minimum.unknowns
+
+    def with_unknowns(self, q: Vectors, height: float) -> Refined:
+        """Give the same with the coefficients of its mirror image."""
+        return replace(self, minimum=replace(self.minimum, unknowns=q), height=height)
+
+
+def gradient_tolerance(scene: LoopScene) -> float:
+    """Smallest gradient that can be told from the rounding of the wire's stiff terms."""
+    return max(_GRADIENT_TOLERANCE, 1e-11 * max(scene.beta, scene.axial_stiffness))
+
+
+def height_of(space: Space, basis: DiscBasis, q: Vectors) -> float:
+    """Height of a shape; negative for a saddle whose crests lie on the y axis."""
+    if space == "saddle":
+        return float(crest_less_valley(basis) @ q)
+    return LoopShape(basis.unknowns, q).height
+
+
+_CREDIBLE_TENSION = 2.0
+"""In units of E_f t R; a coarse shape's stretch may give a stiff wire any tension beyond that."""
+
+
+def settle(scene: LoopScene, energy: LoopEnergy, start: Vectors, *, solved: bool) -> Minimum:
+    """Find the minimum near a first guess: quickly if the guess is good, and safely if not.
+
+    ``solved`` says whether the guess is the solution in a smaller basis.
+    """
+    tension = tension_of(energy, start)
+    known = solved and np.abs(tension).max() < _CREDIBLE_TENSION
+    none = np.zeros_like(tension)
+    found = stiff_minimum(energy, start, tension if known else none)
+    if found is not None:
+        return found
+    most_steps = _MOST_STEPS if len(start) <= _LARGE else _MOST_STEPS_OF_LARGE
+    if scene.axial_stiffness > _SOFTER:
+        # the valley of a stiff wire is too narrow for steps of the energy: near it by a softer one
+        softer = replace(energy, rod=replace(energy.rod, axial_stiffness=_SOFTER))
+        rough = minimise(
+            softer.derivatives, start, tolerance=_ROUGHLY, radius=0.1, most_steps=most_steps
+        )
+        found = stiff_minimum(energy, rough.unknowns, none)
+        if found is not None:
+            return found.after(rough)
+    return minimise(
+        energy.derivatives,
+        start,
+        tolerance=gradient_tolerance(scene),
+        radius=0.1,
+        most_steps=most_steps,
+    )
+
+
+def refine(
+    scene: LoopScene,
+    space: Space,
+    start: tuple[DiscBasis, Vectors],
+    tolerance: float,
+    degrees: Sequence[int] = DEGREES,
+    *,
+    solved: bool = False,
+) -> Refined:
+    """Solve in one basis after the other, at least two, until the height stands still.
+
+    Parameters
+    ----------
+    start : DiscBasis and array (n,)
+        A first guess in any space.
+    tolerance : float
+        Of the height's relative change.
+    degrees : sequence of int
+        Of the bases.
+    solved : bool
+        Whether the first guess is the solution of a neighbouring scene.
+    """
+    basis, q = start
+    height = 0.0
+    steps = factorizations = 0
+    refined: list[Refined] = []
+    for degree in degrees:
+        energy = loop_energy(scene, disc_basis(degree, space))
+        minimum = settle(
+            scene, energy, transfer(basis, energy.basis) @ q, solved=solved or bool(refined)
+        )
+        basis, q = energy.basis, minimum.unknowns
+        steps += minimum.steps
+        factorizations += minimum.factorizations
+        before, height = height, height_of(space, basis, q)
+        change = abs(height - before) / max(abs(height), 1e-300)
+        refined.append(Refined(space, energy, minimum, height, change, steps, factorizations))
+        if not minimum.converged or (len(refined) > 1 and change <= tolerance):
+            break
+    return refined[-1]

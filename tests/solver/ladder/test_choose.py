@@ -1,0 +1,98 @@
+"""Which rung is taken, and that the rungs agree where more than one can go."""
+
+import subprocess
+import sys
+
+import pytest
+
+from solver.errors import NotConvergedError, SceneError
+from solver.ladder.answer import Rung
+from solver.ladder.choose import solve_scene
+from solver.ladder.fidelity import Fidelity
+from solver.ladder.law import law_error
+from solver.mesh.array_mesh import Between
+from solver.mesh.scene import ArrayScene
+from solver.reading import Reading
+from solver.scene import LoopScene
+
+LOOP = LoopScene(0.3, 0.0145, 0.3)
+
+
+def test_auto_takes_the_law_only_within_its_error():
+    error = law_error(LOOP)
+    assert 0 < error < 0.2
+    assert solve_scene(LOOP, tolerance=1.01 * error).rung is Rung.SCALING
+    assert solve_scene(LOOP, tolerance=0.99 * error).rung is Rung.COMPACT
+
+
+def test_the_law_is_not_trusted_where_it_was_not_compared():
+    assert law_error(LoopScene(0.3, 0.001, 0.3)) == float("inf")
+    assert law_error(LoopScene(1.0, 0.1, 0.3)) == float("inf")
+    assert law_error(LoopScene(0.3, 0.0145, 0.3, axis_ratio=1.2)) == float("inf")
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [LOOP, LoopScene(0.2, 0.01, 0.4), LoopScene(0.3, 0.06, 0.45, Reading.PUBLISHED)],
+)
+def test_the_rungs_agree_within_their_stated_errors(scene):
+    law, compact, mesh = (
+        solve_scene(scene, fidelity=fidelity, tolerance=2e-3)
+        for fidelity in (Fidelity.SCALING, Fidelity.COMPACT, Fidelity.MESH)
+    )
+    exact = compact.height_over_perimeter
+    assert law.height_over_perimeter == pytest.approx(exact, rel=law.height_error)
+    assert mesh.height_over_perimeter == pytest.approx(exact, rel=2 * mesh.height_error)
+    assert mesh.height_error <= 2e-3
+
+
+def test_all_rungs_know_a_flat_loop():
+    scene = LoopScene(0.1, 0.03, 0.3)
+    for fidelity in Fidelity:
+        answer = solve_scene(scene, fidelity=fidelity)
+        assert not answer.buckled
+        assert answer.height_over_perimeter == pytest.approx(0, abs=1e-6)
+
+
+def test_arrays_that_tile_are_one_loop():
+    tiled = solve_scene(ArrayScene(LOOP, 3, 3, Between.CUT))
+    assert tiled.rung is Rung.COMPACT
+    assert "tile" in tiled.reason
+    alone = solve_scene(LOOP)
+    assert tiled.height_over_perimeter == alone.height_over_perimeter
+
+
+def test_arrays_that_act_on_each_other_are_meshed():
+    kept = solve_scene(ArrayScene(LOOP, 2, 2, Between.KEPT), tolerance=0.05)
+    assert kept.rung is Rung.MESH
+    assert kept.height_over_perimeter > 1.3 * solve_scene(LOOP).height_over_perimeter
+
+
+@pytest.mark.parametrize("fidelity", [Fidelity.SCALING, Fidelity.COMPACT])
+def test_one_loop_rungs_refuse_arrays_that_do_not_tile(fidelity):
+    with pytest.raises(SceneError, match="mesh"):
+        solve_scene(ArrayScene(LOOP, 2, 2, Between.KEPT), fidelity=fidelity)
+
+
+def test_the_law_refuses_ellipses():
+    with pytest.raises(SceneError, match="compact"):
+        solve_scene(LoopScene(0.3, 0.0145, 0.3, axis_ratio=1.5), fidelity=Fidelity.SCALING)
+
+
+def test_an_error_that_no_mesh_meets_is_told():
+    with pytest.raises(NotConvergedError, match="tolerance"):
+        solve_scene(ArrayScene(LOOP, 1, 2, Between.KEPT), fidelity=Fidelity.MESH, tolerance=1e-8)
+
+
+def test_the_law_loads_no_sparse_matrices():
+    program = (
+        "import sys\n"
+        "from solver.ladder.law import by_law\n"
+        "from solver.scene import LoopScene\n"
+        "by_law(LoopScene(0.3, 0.0145, 0.3), 'asked for')\n"
+        "print([m for m in sys.modules if m.startswith(('scipy.sparse', 'solver.mesh'))])\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert run.stdout.strip() == "[]"

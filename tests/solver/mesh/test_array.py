@@ -1,0 +1,85 @@
+"""Grids of loops that touch."""
+
+import numpy as np
+import pytest
+
+from solver.compact import solve_loop
+from solver.errors import SceneError
+from solver.mesh.array_mesh import Between
+from solver.mesh.measures import area_vector
+from solver.mesh.rod_energy import WireStiffness
+from solver.mesh.scene import ArrayScene, Contact
+from solver.mesh.solve import solve_array, solve_loop_mesh
+from solver.scene import LoopScene
+
+LOOP = LoopScene(0.3, 0.0145, 0.3)
+
+
+@pytest.mark.parametrize("poisson", [0.3, 0.45])
+@pytest.mark.parametrize("contact", list(Contact))
+@pytest.mark.parametrize(("rows", "columns"), [(1, 1), (1, 3), (3, 3)])
+def test_cut_grids_tile_exactly(rows, columns, contact, poisson):
+    loop = LoopScene(0.3, 0.0145, poisson)
+    one = solve_loop_mesh(loop, refinement=2)
+    scene = ArrayScene(loop, rows, columns, Between.CUT, contact)
+    found = solve_array(scene, refinement=2)
+    assert found.energy / (rows * columns) == pytest.approx(one.energy, rel=1e-6)
+    assert found.loop_heights == pytest.approx(np.full(rows * columns, one.height), rel=2e-3)
+    assert found.energy_terms.get("bonds", 0.0) < 1e-6
+
+
+def test_the_pitch_of_tiles():
+    found = solve_array(ArrayScene(LOOP, 1, 2, Between.CUT), refinement=2)
+    middles = [found.positions[wire.vertices].mean(axis=0) for wire in found.mesh.wires]
+    width = solve_loop(LOOP).shape.width
+    assert np.linalg.norm(middles[1] - middles[0]) == pytest.approx(width, rel=1e-2)
+
+
+@pytest.fixture(scope="module")
+def kept():
+    return solve_array(ArrayScene(LOOP, 2, 2, Between.KEPT), refinement=1)
+
+
+def test_kept_fabric_frustrates_the_tiling(kept):
+    one = solve_loop_mesh(LOOP, refinement=1)
+    assert kept.status == "converged"
+    assert kept.energy / 4 > 1.01 * one.energy
+    assert kept.lowest_eigenvalue > 0
+    # the array rises as a whole, higher than each loop
+    assert kept.height > 1.3 * kept.loop_heights.max()
+    assert kept.height_over_perimeter == pytest.approx(0.2, abs=0.03)
+
+
+def test_kept_gaps_go_slack_and_loops_do_not(kept):
+    assert 0.02 < kept.compressed_fraction < 0.2
+    assert kept.smallest_stress < 0
+
+
+def test_three_by_three_bows():
+    found = solve_array(ArrayScene(LOOP, 3, 3, Between.KEPT), refinement=1)
+    axes = [area_vector(found.positions[wire.vertices]) for wire in found.mesh.wires]
+    units = np.array([axis / np.linalg.norm(axis) for axis in axes])
+    assert found.height_over_perimeter == pytest.approx(0.28, abs=0.03)
+    assert (units[0] @ units[8]) < 0.95
+
+
+def test_wires_of_different_stiffness():
+    wires = (WireStiffness(0.0145, 1000.0), WireStiffness(0.03, 1000.0))
+    scene = ArrayScene(LOOP, 1, 2, Between.CUT, Contact.POINT, wires)
+    found = solve_array(scene, refinement=1)
+    assert found.status == "converged"
+    assert found.loop_heights[1] < 0.8 * found.loop_heights[0]
+    # joined at one point, each keeps its own shape
+    alone = [solve_loop_mesh(LoopScene(0.3, wire.beta, 0.3), refinement=1).energy for wire in wires]
+    assert found.energy == pytest.approx(sum(alone), rel=1e-4)
+    bonded = solve_array(ArrayScene(LOOP, 1, 2, Between.CUT, wires=wires), refinement=1)
+    assert bonded.energy == pytest.approx(sum(alone), rel=1e-3)
+
+
+def test_scenes_out_of_range_are_refused():
+    with pytest.raises(SceneError, match="loops"):
+        ArrayScene(LOOP, 0, 2, Between.CUT)
+    with pytest.raises(SceneError, match="one for each"):
+        ArrayScene(LOOP, 1, 2, Between.CUT, wires=(WireStiffness(0.1, 1.0),))
+    with pytest.raises(SceneError, match="greater than 0"):
+        ArrayScene(LOOP, 1, 1, Between.CUT, wires=(WireStiffness(-0.1, 1.0),))
