@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 import trimesh
-from manifold3d import Error, Manifold, Mesh64, OpType
+from manifold3d import Manifold, Mesh64, OpType
 from numpy.typing import NDArray
-from trimesh.graph import connected_component_labels
 
 from sesame_cad.errors import InputError
+from sesame_cad.watertight import vertex_normals, watertight
 
 Vectors = NDArray[np.float64]
 Triangles = NDArray[np.int64]
@@ -20,15 +20,6 @@ Surface = Callable[[Vectors, Vectors], Vectors]
 
 Boundary = Callable[[Vectors], Vectors]
 """From angle (n,) in radians to points (n, 3) in mm."""
-
-MESH_TOLERANCE_MM = 1e-3
-"""Detail below this is merged: far under any printer, far over the spacing of float32 at 1 m."""
-
-WELD_GRIDS_MM = tuple(2.0**-k for k in range(20, 11, -2))
-"""Coordinates are rounded to the finest of these that leaves no two surfaces touching."""
-
-SPECK_SHARE = 1e-4
-"""Bodies with less than this share of the largest one's volume are left out."""
 
 RIM_SHARE = 0.6
 """The fabric's edge is at most this share of the wire, so that it ends well inside the tube."""
@@ -91,7 +82,7 @@ def cell_solid(
         raise InputError(*faults)
     slab = _slab(surface, wire_diameter_mm, fabric_thickness_mm, rings, segments)
     tube = tube_mesh(boundary, wire_diameter_mm, segments, sides)
-    return _trimesh(_union([_manifold(*slab), _manifold(*tube)]))
+    return watertight(_union([_manifold(*slab), _manifold(*tube)]))
 
 
 def array_solid(cell: trimesh.Trimesh, centres_mm: Vectors) -> trimesh.Trimesh:
@@ -108,7 +99,7 @@ def array_solid(cell: trimesh.Trimesh, centres_mm: Vectors) -> trimesh.Trimesh:
         When the union does not come out as one closed solid.
     """
     solid = _manifold(cell.vertices, cell.faces)
-    return _trimesh(_union([solid.translate((float(x), float(y), 0.0)) for x, y in centres_mm]))
+    return watertight(_union([solid.translate((float(x), float(y), 0.0)) for x, y in centres_mm]))
 
 
 def _cell_faults(
@@ -146,7 +137,7 @@ def _slab(
     middle, faces = disc_mesh(surface, rings, segments)
     half_mm = np.full((len(middle), 1), thickness_mm / 2)
     half_mm[-segments:] = min(thickness_mm / 2, RIM_SHARE * wire_diameter_mm / 2)
-    offset = _vertex_normals(middle, faces) * half_mm
+    offset = vertex_normals(middle, faces) * half_mm
     rim = np.arange(len(middle) - segments, len(middle))
     wall = _quads(rim, np.roll(rim, -1), rim + len(middle), np.roll(rim, -1) + len(middle))
     closed = np.concatenate([faces, faces[:, ::-1] + len(middle), wall[:, ::-1]])
@@ -207,15 +198,6 @@ def _quads(a: Triangles, b: Triangles, c: Triangles, d: Triangles) -> Triangles:
     return np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)])
 
 
-def _vertex_normals(points: Vectors, faces: Triangles) -> Vectors:
-    a, b, c = (points[faces[:, k]] for k in range(3))
-    weighted = np.cross(b - a, c - a)
-    normal = np.zeros_like(points)
-    for k in range(3):
-        np.add.at(normal, faces[:, k], weighted)
-    return normal / np.linalg.norm(normal, axis=1, keepdims=True)
-
-
 def _manifold(points: Vectors, faces: Triangles) -> Manifold:
     # Plain copies: the binding takes no subclass of ndarray, such as trimesh holds.
     return Manifold(
@@ -225,59 +207,3 @@ def _manifold(points: Vectors, faces: Triangles) -> Manifold:
 
 def _union(parts: list[Manifold]) -> Manifold:
     return Manifold.batch_boolean(parts, OpType.Add)
-
-
-def _trimesh(solid: Manifold) -> trimesh.Trimesh:
-    if solid.status() != Error.NoError:
-        raise InputError(f"the surface does not close to a solid: {solid.status().name}")
-    mesh = solid.simplify(MESH_TOLERANCE_MM).to_mesh64()
-    for grid_mm in WELD_GRIDS_MM:
-        points, faces = _weld(mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64), grid_mm)
-        if _is_closed(faces):
-            return _without_specks(points, faces)
-    raise InputError("the solid touches itself along an edge: change the segments or the sides")
-
-
-def _without_specks(points: Vectors, faces: Triangles) -> trimesh.Trimesh:
-    """Keep the bodies; crumbs and hollows where wires all but coincide have no size to speak of."""
-    mesh = trimesh.Trimesh(points, faces, process=False)
-    body = connected_component_labels(mesh.face_adjacency, node_count=len(faces))
-    a, b, c = (points[faces[:, k]] for k in range(3))
-    volume = np.bincount(body, weights=np.sum(a * np.cross(b, c), axis=1)) / 6
-    kept = faces[(volume > SPECK_SHARE * volume.max())[body]]
-    used = np.unique(kept)
-    return trimesh.Trimesh(points[used], np.searchsorted(used, kept), process=False)
-
-
-def _is_closed(faces: Triangles) -> bool:
-    """Whether every edge belongs to two triangles."""
-    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    return bool(np.all(np.bincount(_row_numbers(edges)) == 2))
-
-
-def _weld(points: Vectors, faces: Triangles, grid_mm: float) -> tuple[Vectors, Triangles]:
-    """Merge the points that a file of 32-bit floats cannot tell apart."""
-    # The grid keeps values next to zero, where floats lie dense, from being told apart either;
-    # adding zero turns -0 into 0.
-    coarse = (np.round(points / grid_mm) * grid_mm + 0.0).astype(np.float32)
-    where = _row_numbers(coarse)
-    welded = np.empty((where.max() + 1, 3))
-    welded[where] = coarse
-    faces = where[faces]
-    a, b, c = faces.T
-    return welded, _without_fins(faces[(a != b) & (b != c) & (c != a)])
-
-
-def _without_fins(faces: Triangles) -> Triangles:
-    """Drop triangles that lie back to back: solid or gap without a thickness."""
-    which = _row_numbers(np.sort(faces, axis=1))
-    return faces[np.bincount(which)[which] == 1]
-
-
-def _row_numbers(rows: NDArray[np.number]) -> Triangles:
-    """Number the rows in rising order, equal rows alike: `numpy.unique` takes ten times as long."""
-    order = np.lexsort(rows.T[::-1])
-    risen = np.any(np.diff(rows[order], axis=0) != 0, axis=1)
-    number = np.zeros(len(rows), dtype=np.int64)
-    number[order[1:]] = np.cumsum(risen)
-    return number

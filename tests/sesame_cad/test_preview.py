@@ -50,3 +50,21 @@ def test_a_thicker_preview_holds_more():
     )
     state = solve_state(thin, "cold", thin.wire.modulus_cold_GPa)
     assert state_solid(thick, state).volume > state_solid(thin, state).volume + 300
+
+
+def test_wires_that_touch_along_an_edge_are_parted():
+    """A cell is missing and the wire thin: the union as it comes touches itself in two places."""
+    spec = load_specification(
+        EXAMPLES / "large-array.toml",
+        {
+            "layout.rows": 3,
+            "layout.columns": 3,
+            "layout.loop_diameter_mm": 40,
+            "layout.missing": [[2, 2]],
+            "wire.diameter_mm": 0.3,
+        },
+    )
+    state = solve_state(spec, "cold", spec.wire.modulus_cold_GPa)
+    solid = state_solid(spec, state)
+    assert solid.is_watertight
+    assert solid.body_count == 1
