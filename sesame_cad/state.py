@@ -135,7 +135,10 @@ def solve_state(spec: Specification, name: str, wire_modulus_GPa: float) -> Stat
     try:
         found = solve_loop(scene, tolerance=spec.model.tolerance)
     except NotConvergedError as error:
-        raise NotConvergedError(f"{name} shape: {error}") from None
+        raise NotConvergedError(
+            f"{name} shape: {error} (beta = {materials.beta:.3g}; it grows as wire diameter⁴ / "
+            'loop diameter³; layout.shape = "none" makes the stitch and cut files alone)'
+        ) from None
     seconds = perf_counter() - start
     left = omissions(spec, materials, found)
     for term in left:

@@ -21,15 +21,20 @@ from solver.symmetry import ALIGNED, DIAGONAL, FLAT, Symmetry, mirror_symmetry
 BRANCH_DEGREES = (5, 7, 9, 11, 13, 17)
 """Degrees of the successive bases, 20 to 155 unknowns."""
 
-OBLIQUE_DEGREES = (5, 7, 9, 11, 13)
-"""As many unknowns in fewer steps, for shapes with no more than a half-turn."""
+OBLIQUE_DEGREES = (9, 11, 13)
+"""For shapes with no more than a half-turn, 95 to 175 unknowns.
+
+Smaller bases tell too little of shapes between two saddles of nearly the same energy.
+"""
 
 _RISES = {ALIGNED: DiscFunction(2, 0, "cos"), DIAGONAL: DiscFunction(2, 0, "sin")}
 _START_HEIGHT = 0.25
 _SOFT_WIRE = 30.0
 _ROUGHLY = 1e-2
 _KEEPING_A_HALF_TURN = (ALIGNED, DIAGONAL, mirror_symmetry(1, 1), Symmetry(((1, 1),), ((0, 0),)))
-_MOST_STEPS = 120
+_MOST_STEPS = 600
+_SAME_ENERGY = 1e-7
+"""By which a stable branch may lie above an unstable one that has another basis."""
 _PUSH = 0.1
 """How far an unstable shape is left along its weakest motion, in the mean square over the disc."""
 
@@ -105,10 +110,11 @@ def solve_branch(scene: LoopScene, space: Symmetry, tolerance: float) -> Refined
 def lowest_branch(
     scene: LoopScene, flat: Refined, tolerance: float
 ) -> tuple[Refined, WeakestMotion]:
-    """Find the lower of the saddles along the axes and at 45° to them that is a minimum.
+    """Find the lower of the saddles along the axes and at 45° to them, if it is a minimum.
 
-    Where neither is, the lower one is left along its weakest motion, if that keeps a half-turn.
-    What is still unstable then, wrinkled or folded, is told by its weakest motion.
+    Where it is not, and the other one is not a lower minimum, it is left along its weakest motion,
+    if that keeps a half-turn. What is still unstable then, wrinkled or folded, is told by its
+    weakest motion.
     """
     rough = [_branch_start(scene, flat, space) for space in (DIAGONAL, ALIGNED)]
     rough.sort(key=lambda branch: branch.minimum.value)
@@ -117,7 +123,8 @@ def lowest_branch(
         refined = finished(scene, branch, tolerance, BRANCH_DEGREES)
         found.append((refined, weakest_of(scene, refined)))
         stable = found[-1][1].eigenvalue >= -stability_floor(scene)
-        if stable or found[0][1].symmetry not in _KEEPING_A_HALF_TURN:
+        lower = refined.minimum.value <= found[0][0].minimum.value + _SAME_ENERGY
+        if (stable and lower) or found[0][1].symmetry not in _KEEPING_A_HALF_TURN:
             return found[-1]
     left = leave(scene, *found[0], tolerance)
     return left, weakest_of(scene, left)
@@ -135,7 +142,7 @@ def stability_floor(scene: LoopScene) -> float:
 
 def leave(scene: LoopScene, refined: Refined, weakest: WeakestMotion, tolerance: float) -> Refined:
     """Go downhill from an unstable shape, among all that have a half-turn about z."""
-    small = disc_basis(BRANCH_DEGREES[0], "oblique")
+    small = disc_basis(OBLIQUE_DEGREES[0], "oblique")
     push = transfer(weakest.basis, small) @ weakest.direction
     start = transfer(refined.basis, small) @ refined.unknowns + _PUSH * push
     energy = loop_energy(scene, small)

@@ -5,23 +5,30 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.disc_basis import DiscBasis, Space, disc_basis
-from solver.loop_energy import edge_speed, scene_membrane
+from solver.disc_basis import DiscBasis, disc_basis
+from solver.loop_energy import LoopEnergy, edge_speed, scene_membrane
 from solver.membrane import Membrane
 from solver.omitted import OmittedTerm
-from solver.scene import LoopScene
+from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 from solver.shape import LoopShape, from_expansion
-from solver.symmetry import ALIGNED, FLAT
+from solver.symmetry import ALIGNED
+from solver.twist import flat_wire_twist
 
 Vectors = NDArray[np.float64]
 
 CONTACT = "contact across the loop"
+TWIST = "twist of the wire"
+SLACK = "slack fabric (tension field)"
 EDGE_POINTS = 256
 WRITHE_POINTS = 48
 LARGEST_WIRE_STRAIN = 0.01
 """Beyond it the wire is no longer stiff against stretch, as the model takes it to be."""
 
-_MIRRORED: tuple[Space, ...] = ("saddle", ALIGNED, FLAT)
+_SMALLEST_TWIST = 1e-4
+"""Share of the energy from which twist that was left out is told of."""
+
+_STRAYED = 0.5
+"""In turns; a wire that passes through itself, or a tangent through its opposite, makes it 2."""
 
 
 def smallest_principal_stress(membrane: Membrane, gradient: Vectors) -> float:
@@ -102,26 +109,55 @@ def writhe(points: Vectors) -> float:
     return float(np.sum(angle * sign) / (2 * np.pi))
 
 
-def _writhe_of(space: Space, shape: LoopShape) -> float:
-    """Writhe of a loop; that of a shape with a mirror plane is 0."""
-    return 0.0 if space in _MIRRORED else writhe(shape.edge(WRITHE_POINTS))
+def twist_share(scene: LoopScene, basis: DiscBasis, q: Vectors, energy: float) -> float:
+    """Energy of twist that a round wire would have in a loop, as a share of the loop's energy.
+
+    A shape with a mirror plane has no writhe, and so none.
+    """
+    if basis.mirrored:
+        return 0.0
+    twist = flat_wire_twist(scene.beta, ROUND_WIRE_TWIST_RATIO, scene.semi_axes, basis.angle)
+    return twist.energy(basis.along_edge(q), basis.arc) / energy
+
+
+def writhe_strays(energy: LoopEnergy, q: Vectors) -> bool:
+    """Whether a wire's twist was reckoned from a writhe that is not the loop's.
+
+    That by the tangent's way from the flat loop is out by 2 where the tangent has come to point
+    against its own first direction on that way.
+    """
+    if energy.twist is None:
+        return False
+    basis = energy.basis
+    turns = energy.twist.writhe(basis.along_edge(q), basis.arc)
+    return abs(turns - writhe(LoopShape(basis.unknowns, q).edge(WRITHE_POINTS))) > _STRAYED
+
+
+def _twist_left_out(
+    scene: LoopScene, basis: DiscBasis, q: Vectors, energy: float
+) -> tuple[OmittedTerm, ...]:
+    """Twist of the wire, where the scene does not ask for it."""
+    if scene.twist_ratio > 0:
+        return ()
+    share = twist_share(scene, basis, q, energy)
+    measure = "twist energy of a round wire / energy"
+    return (OmittedTerm(TWIST, measure, share, matters=share > _SMALLEST_TWIST),)
 
 
 def looked_back(
-    scene: LoopScene, space: Space, basis: DiscBasis, q: Vectors, stress: float
+    scene: LoopScene, basis: DiscBasis, q: Vectors, stress: float, energy: float
 ) -> tuple[OmittedTerm, ...]:
     """Measure what the model of one loop leaves out and the shape alone can tell.
 
-    ``stress`` is the fabric's smallest principal stress.
+    ``stress`` is the fabric's smallest principal stress, ``energy`` the loop's.
     """
     shape = LoopShape(basis.unknowns, q)
     overlap = max(0.0, -shape.width)
     strain = largest_wire_strain(scene, basis, q)
-    turns = abs(_writhe_of(space, shape))
     wriggle = own_curvature_excess(scene, basis, q)
     return (
         OmittedTerm(
-            "slack fabric (tension field)",
+            SLACK,
             "largest compressive stress / E_f",
             max(0.0, -stress),
             matters=stress < 0 < scene.strain,
@@ -133,7 +169,7 @@ def looked_back(
             matters=shape.width <= 0,
             fatal=shape.width <= 0,
         ),
-        OmittedTerm("twist of the wire", "writhe of the loop", turns, matters=turns > 1e-6),
+        *_twist_left_out(scene, basis, q, energy),
         OmittedTerm(
             "wire's resistance to twist",
             "natural curvature beyond the curvature / (1/R)",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from solver.branches import flat_state, lowest_branch, stability_floor
-from solver.checks import looked_back, smallest_principal_stress
+from solver.checks import looked_back, smallest_principal_stress, writhe_strays
 from solver.circle import flat_circle, saddle_circle, stays_flat, telling_degree
 from solver.disc_basis import Space
 from solver.equilibrium import Equilibrium, Kind
@@ -85,7 +85,8 @@ def _equilibrium(
 ) -> Equilibrium:
     basis, q = refined.basis, refined.unknowns
     shape = LoopShape(basis.unknowns, q)
-    omitted = looked_back(scene, refined.space, basis, q, stress)
+    terms = refined.energy.terms(q)
+    omitted = looked_back(scene, basis, q, stress, sum(terms.values()))
     faults = _faults_of_solve(scene, refined, eigenvalue, tolerance)
     buckled = refined.height != 0
     return Equilibrium(
@@ -93,7 +94,7 @@ def _equilibrium(
         shape=shape,
         buckled=buckled,
         status="; ".join([*faults, *_faults_of_model(scene, omitted)]) or "converged",
-        energy_terms=refined.energy.terms(q),
+        energy_terms=terms,
         gradient_norm=refined.minimum.gradient_norm,
         lowest_eigenvalue=eigenvalue,
         steps=refined.steps,
@@ -134,6 +135,11 @@ def _faults_of_solve(
         faults.append(
             f"the shape is not a minimum (lowest eigenvalue {eigenvalue:.1e}): the fabric "
             f"wrinkles or the loop folds; {remedy}"
+        )
+    if writhe_strays(refined.energy, refined.unknowns):
+        faults.append(
+            f"the wire's twist is wrong: the loop has turned inside out on its way from the flat "
+            f"one; {remedy}"
         )
     return faults
 

@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.symmetry import (
+    ALIGNED,
+    FLAT,
     Mirrors,
     Symmetry,
     Unknown,
@@ -27,6 +29,8 @@ from solver.symmetry import (
 Vectors = NDArray[np.float64]
 Space = Literal["saddle", "oblique"] | Mirrors | Symmetry
 
+_MIRRORED: tuple[Space, ...] = ("saddle", (0, 0), ALIGNED, FLAT)
+
 
 @dataclass(frozen=True, eq=False)
 class DiscBasis:
@@ -35,6 +39,7 @@ class DiscBasis:
     Attributes
     ----------
     degree : int
+    space : Space
     unknowns : tuple of Unknown
         What each coefficient moves.
     gradient : array (P, 3, 2, n)
@@ -50,6 +55,7 @@ class DiscBasis:
     """
 
     degree: int
+    space: Space
     unknowns: tuple[Unknown, ...]
     gradient: Vectors
     area: Vectors
@@ -61,6 +67,11 @@ class DiscBasis:
     def size(self) -> int:
         """Number of unknowns."""
         return len(self.unknowns)
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether every shape has a mirror plane, and so no writhe."""
+        return self.space in _MIRRORED
 
     @property
     def tangent(self) -> Vectors:
@@ -159,6 +170,7 @@ def disc_basis(degree: int, space: Space) -> DiscBasis:
     edge = _sector_angles(6 * (degree + 1), sectors)
     return DiscBasis(
         degree=degree,
+        space=space,
         unknowns=unknowns,
         gradient=_gradient_map(unknowns, r.ravel(), angle.ravel()),
         area=np.repeat(weights / 2 * np.pi / len(theta), len(theta)),

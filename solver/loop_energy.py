@@ -13,6 +13,7 @@ from solver.quartic import LARGEST, FabricPolynomial, shape_table
 from solver.reading import density_coefficients
 from solver.rod import Rod
 from solver.scene import LoopScene
+from solver.twist import WireTwist, flat_wire_twist
 
 Vectors = NDArray[np.float64]
 
@@ -30,6 +31,8 @@ class LoopEnergy:
         Length of unstretched wire per angle at the basis' points of the edge.
     polynomial : FabricPolynomial or None
         The fabric's energy tabulated, where the basis is small and all directions are alike.
+    twist : WireTwist or None
+        Where the scene asks for it and the shapes of the basis can writhe.
     """
 
     membrane: Membrane
@@ -37,17 +40,21 @@ class LoopEnergy:
     basis: DiscBasis
     speed: Vectors | float = 1.0
     polynomial: FabricPolynomial | None = None
+    twist: WireTwist | None = None
 
     def terms(self, q: Vectors) -> dict[str, float]:
         """Energy by term, units of E_f t R², at unknowns ``q`` (n,)."""
         basis = self.basis
         tangent, second = basis.tangent @ q, basis.second @ q
         bending, stretch = self.rod.energies(tangent, second, basis.arc, self.speed)
-        return {
+        terms = {
             "fabric stretch": self.membrane.energy(basis.gradient @ q, basis.area),
             "wire bending": bending,
             "wire stretch": stretch,
         }
+        if self.twist is not None:
+            terms["wire twist"] = self.twist.energy(basis.along_edge(q), basis.arc)
+        return terms
 
     def value(self, q: Vectors) -> float:
         """Energy at unknowns ``q`` (n,)."""
@@ -61,17 +68,25 @@ class LoopEnergy:
         The Hessian takes the wire's tension to be ``force`` (Q,), where that is given.
         """
         basis = self.basis
-        wire = self.rod.derivatives(basis.along_edge(q), basis.arc, basis.edge, self.speed, force)
+        edge = basis.along_edge(q)
+        wire = self.rod.derivatives(edge, basis.arc, basis.edge, self.speed, force)
         if self.polynomial is None:
             fabric = self.membrane.derivatives(basis.gradient @ q, basis.area, basis.gradient)
         else:
             fabric = self.polynomial.derivatives(q)
-        return float(fabric[0] + wire[0]), fabric[1] + wire[1], fabric[2] + wire[2]
+        value, slope, hessian = (fabric[k] + wire[k] for k in range(3))
+        if self.twist is not None:
+            own = self.twist.derivatives(edge, basis.arc, basis.edge)
+            value, slope, hessian = value + own[0], slope + own[1], hessian + own[2]
+        return float(value), slope, hessian
 
     def derivatives_around(
         self, gradient: Vectors, tangent: Vectors, second: Vectors
     ) -> tuple[float, Vectors, Vectors]:
         """Derivatives by the basis' unknowns around any shape, given at the basis' own points.
+
+        Those of fabric, bending and stretch: the writhe of any shape is not that of the part of its
+        edge that a symmetry repeats.
 
         Parameters
         ----------
@@ -98,6 +113,13 @@ def scene_rod(scene: LoopScene) -> Rod:
     return Rod(scene.beta, scene.axial_stiffness, scene.natural_curvature)
 
 
+def scene_twist(scene: LoopScene, angle: Vectors) -> WireTwist | None:
+    """Twist of a scene's wire at angles of the disc's edge; None where it is left out."""
+    if scene.twist_ratio == 0:
+        return None
+    return flat_wire_twist(scene.beta, scene.twist_ratio, scene.semi_axes, angle)
+
+
 def edge_speed(scene: LoopScene, angle: Vectors) -> Vectors | float:
     """Length of unstretched wire per angle of the disc's edge."""
     along, across = scene.semi_axes
@@ -111,4 +133,5 @@ def loop_energy(scene: LoopScene, basis: DiscBasis) -> LoopEnergy:
     if scene.isotropic_circle and basis.size <= LARGEST:
         polynomial = FabricPolynomial(shape_table(basis), membrane.strain, membrane.a, membrane.b)
     speed = edge_speed(scene, basis.angle)
-    return LoopEnergy(membrane, scene_rod(scene), basis, speed, polynomial)
+    twist = None if basis.mirrored else scene_twist(scene, basis.angle)
+    return LoopEnergy(membrane, scene_rod(scene), basis, speed, polynomial, twist)

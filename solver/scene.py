@@ -14,15 +14,23 @@ LARGEST_STRAIN = 2.0
 
 LARGEST_AXIS_RATIO = 10.0
 LARGEST_NATURAL_CURVATURE = 10.0
+LARGEST_TWIST_RATIO = 10.0
+
+ROUND_WIRE_TWIST_RATIO = 0.75
+"""GJ/EI = 1/(1 + ν) of a round wire (J = 2I, G = E/2(1 + ν)), for ν = 1/3 of nickel-titanium.
+
+Poisson's ratio as makers' data sheets give it (0.33).
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class LoopScene:
     """A loop of perimeter 2π on fabric stretched by ``strain`` in all directions.
 
-    The energy is U = ∫ w(E) dA0 + β ∮ (κ − κ0)² dl + (k/2) ∮ (λ − 1)² ds, with dA0 the unstretched
-    area, κ the wire's curvature, λ its stretch and k its axial stiffness. Lengths are in units of
-    the radius R of the circle of the same perimeter, energies in units of E_f t R².
+    The energy is U = ∫ w(E) dA0 + β ∮ (κ − κ0)² dl + (k/2) ∮ (λ − 1)² ds + 2π β ρ Wr², with dA0
+    the unstretched area, κ the wire's curvature, λ its stretch, k its axial stiffness and Wr the
+    loop's writhe. Lengths are in units of the radius R of the circle of the same perimeter,
+    energies in units of E_f t R².
 
     Attributes
     ----------
@@ -43,6 +51,9 @@ class LoopScene:
         of their mean E_f.
     natural_curvature : float
         κ0, in units of 1/R, at least 0, of a wire that is free to turn about its own axis.
+    twist_ratio : float
+        ρ = GJ/EI, the wire's stiffness against twist over that against bending, of a straight
+        wire laid flat without twist; 0 leaves its twist out.
     alpha : float
         Bending stiffness of the fabric in units of E_f t R²; only 0 is modelled.
 
@@ -60,12 +71,14 @@ class LoopScene:
     axis_ratio: float = 1.0
     modulus_ratio: float = 1.0
     natural_curvature: float = 0.0
+    twist_ratio: float = 0.0
     alpha: float = 0.0
 
     def __post_init__(self) -> None:
         _check_range("strain", self.strain, 0, LARGEST_STRAIN)
         _check_range("axis_ratio", self.axis_ratio, 1, LARGEST_AXIS_RATIO)
         _check_range("natural_curvature", self.natural_curvature, 0, LARGEST_NATURAL_CURVATURE)
+        _check_range("twist_ratio", self.twist_ratio, 0, LARGEST_TWIST_RATIO)
         for key, value in (
             ("beta", self.beta),
             ("axial_stiffness", self.axial_stiffness),
@@ -75,6 +88,7 @@ class LoopScene:
                 raise SceneError(f"{key} = {value:g}: must be greater than 0 and finite")
         check_poisson(self.poisson, self.reading)
         self._check_orthotropy()
+        self._check_twist()
         if self.alpha != 0:
             raise SceneError(f"alpha = {self.alpha:g}: the fabric's bending is not modelled, use 0")
 
@@ -86,6 +100,14 @@ class LoopScene:
             raise SceneError(
                 f"modulus_ratio = {self.modulus_ratio:g}: too far from 1 for poisson = "
                 f"{self.poisson:g} ({self.reading} reading); the fabric would not be stable"
+            )
+
+    def _check_twist(self) -> None:
+        """Refuse twist of a curved wire, which would not spread evenly along it."""
+        if self.twist_ratio > 0 and self.natural_curvature > 0:
+            raise SceneError(
+                f"twist_ratio = {self.twist_ratio:g}: twist is modelled for a straight wire only, "
+                f"and natural_curvature = {self.natural_curvature:g}; use 0 for one of them"
             )
 
     @property

@@ -23,11 +23,12 @@ from solver.free_motions import (
     translation,
     turn_of_fabric,
 )
-from solver.loop_energy import edge_speed, scene_membrane, scene_rod
+from solver.loop_energy import edge_speed, scene_membrane, scene_rod, scene_twist
 from solver.quartic import FabricPolynomial, QuarticTable, tabulate
 from solver.scene import LoopScene
 from solver.shape import Expansion, LoopShape, from_expansion
 from solver.symmetry import ALIGNED, DIAGONAL, HALF_TURN, Mirrors, Symmetry, mirror_symmetry
+from solver.twist import writhe_curvature, writhe_slope
 
 Vectors = NDArray[np.float64]
 
@@ -54,6 +55,13 @@ def classes_of(space: Space) -> tuple[Symmetry, ...]:
     return tuple(mirror_symmetry(*c) for c in _ALL_MIRRORS)
 
 
+def _writhing_class(basis: DiscBasis) -> Symmetry:
+    """Give the one class whose motions change the writhe of a basis' shapes to first order."""
+    if basis.mirrored:
+        return mirror_symmetry(1, 1)
+    return DIAGONAL if basis.space == DIAGONAL else HALF_TURN
+
+
 def free_motions(shape: LoopShape, symmetry: Mirrors) -> tuple[Expansion, ...]:
     """Motions of one mirror class that leave a saddle's energy on isotropic fabric as it is."""
     e = shape.expansion
@@ -77,12 +85,15 @@ class Motions:
         m unknowns of the class.
     gradient, edge : array (P, 3, 2, n), (Q, 6, n)
         Of the shapes, at the points of ``basis``.
+    writhing : bool
+        Whether they change the shapes' writhe to first order.
     """
 
     shapes: DiscBasis
     basis: DiscBasis
     gradient: Vectors
     edge: Vectors
+    writhing: bool
 
     @property
     def few(self) -> bool:
@@ -102,7 +113,8 @@ def motions(shapes: DiscBasis, space: Space, symmetry: Symmetry, highest: int) -
     home = disc_basis(shapes.degree, _HOMES[space]) if isinstance(space, str) else shapes
     into = transfer(shapes, home)
     basis = disc_basis(shapes.degree, symmetry).up_to(highest)
-    return Motions(shapes, basis, home.gradient @ into, home.edge @ into)
+    writhing = symmetry == _writhing_class(shapes)
+    return Motions(shapes, basis, home.gradient @ into, home.edge @ into, writhing)
 
 
 def hessian_along(scene: LoopScene, moves: Motions, q: Vectors) -> Vectors:
@@ -112,8 +124,23 @@ def hessian_along(scene: LoopScene, moves: Motions, q: Vectors) -> Vectors:
         fabric = FabricPolynomial(moves.table, membrane.strain, membrane.a, membrane.b).hessian(q)
     else:
         fabric = membrane.derivatives(moves.gradient @ q, basis.area, basis.gradient)[2]
-    speed = edge_speed(scene, basis.angle)
-    return fabric + scene_rod(scene).derivatives(moves.edge @ q, basis.arc, basis.edge, speed)[2]
+    speed, edge = edge_speed(scene, basis.angle), moves.edge @ q
+    wire = scene_rod(scene).derivatives(edge, basis.arc, basis.edge, speed)[2]
+    return fabric + wire + _twist_along(scene, moves, edge)
+
+
+def _twist_along(scene: LoopScene, moves: Motions, edge: Vectors) -> Vectors | float:
+    """Second variation of the wire's twist at a shape with x' and x'' (Q, 6)."""
+    basis, twist = moves.basis, scene_twist(scene, moves.basis.angle)
+    out: Vectors | float = 0.0
+    if twist is not None and moves.writhing:
+        slope = writhe_slope(edge, basis.arc, basis.edge)
+        out = 2 * twist.stiffness * np.outer(slope, slope)
+    if twist is not None and not moves.shapes.mirrored:
+        turns = twist.writhe(edge, basis.arc)
+        bent = writhe_curvature(edge, basis.arc, basis.edge)
+        out = out + 2 * twist.stiffness * turns * bent
+    return out
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,8 @@ import click
 from sesame_cad.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from solver.ladder.answer import Answer
     from solver.mesh.scene import ArrayScene
     from solver.scene import LoopScene
@@ -120,8 +122,9 @@ def command(
             natural_curvature,
         )
         scene = _scene(loop, loops, between)
+        solve = _solver(scene, fidelity, tolerance)
         start = perf_counter()
-        answer = _answer(scene, fidelity, tolerance)
+        answer = solve()
         seconds = perf_counter() - start
     except SceneError as error:
         raise InputError(str(error)) from None
@@ -149,15 +152,18 @@ def _scene(loop: LoopScene, loops: str, between: str) -> LoopScene | ArrayScene:
     return ArrayScene(loop, rows, columns, Between(between))
 
 
-def _answer(scene: LoopScene | ArrayScene, fidelity: str, tolerance: float) -> Answer:
-    """Solve; the scaling law loads nothing that it does not need."""
+def _solver(scene: LoopScene | ArrayScene, fidelity: str, tolerance: float) -> Callable[[], Answer]:
+    """Load what the solve needs; the scaling law loads no more than itself."""
+    from functools import partial
+
     from solver.scene import LoopScene
 
     if fidelity == "scaling" and isinstance(scene, LoopScene):
         from solver.ladder.law import by_law
 
-        return by_law(scene, "asked for")
-    from solver.ladder.choose import solve_scene
+        return partial(by_law, scene, "asked for")
+    from solver.ladder.choose import prepare_tables, solve_scene
     from solver.ladder.fidelity import Fidelity
 
-    return solve_scene(scene, fidelity=Fidelity(fidelity), tolerance=tolerance)
+    prepare_tables()
+    return partial(solve_scene, scene, fidelity=Fidelity(fidelity), tolerance=tolerance)

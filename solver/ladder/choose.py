@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from solver.checks import SLACK, TWIST
 from solver.compact import solve_loop
 from solver.errors import SceneError
 from solver.ladder.answer import Answer, Rung
@@ -16,9 +17,14 @@ from solver.ladder.law import by_law, law_error
 from solver.ladder.meshed import by_array_mesh, by_loop_mesh
 from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene, Contact
-from solver.scene import LoopScene
+from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 
 _ASKED = "asked for"
+
+
+def prepare_tables() -> None:
+    """Tabulate the smooth bases that most loops need, so that a solve's time is its own."""
+    solve_loop(LoopScene(0.3, 0.0145, 0.3))
 
 
 def solve_scene(
@@ -50,13 +56,36 @@ def solve_scene(
         return by_law(scene, _ASKED)
     if fidelity is Fidelity.MESH:
         return by_loop_mesh(scene, _ASKED, tolerance, lenient=allow_unreliable)
-    reason = _ASKED
-    if fidelity is Fidelity.AUTO:
-        error = law_error(scene)
-        if error <= tolerance:
-            return by_law(scene, f"its error, at most {error:.2g}, is within the tolerance")
-        reason = "a smooth basis is the cheapest that meets the tolerance for one loop"
-    return _by_compact(scene, reason, tolerance, lenient=allow_unreliable)
+    if fidelity is Fidelity.COMPACT:
+        return _by_compact(scene, _ASKED, tolerance, lenient=allow_unreliable)
+    error = law_error(scene)
+    if error <= tolerance:
+        return by_law(scene, f"its error, at most {error:.2g}, is within the tolerance")
+    return _by_compact_or_mesh(scene, tolerance, lenient=allow_unreliable)
+
+
+def _by_compact_or_mesh(scene: LoopScene, tolerance: float, *, lenient: bool) -> Answer:
+    """Solve in the smooth basis; where the fabric goes slack, on a mesh with a tension field."""
+    reason = "a smooth basis is the cheapest that meets the tolerance for one loop"
+    smooth = _by_compact(scene, reason, tolerance, lenient=True)
+    if _matters(smooth, TWIST) and scene.natural_curvature == 0:
+        scene = replace(scene, twist_ratio=ROUND_WIRE_TWIST_RATIO)
+        reason = "a smooth basis; the wire's twist was added, for the shape without it has writhe"
+        smooth = _by_compact(scene, reason, tolerance, lenient=True)
+    found = smooth.equilibrium
+    slack = _matters(smooth, SLACK)
+    if found is not None and found.status == "converged" and not slack:
+        return smooth
+    if scene.modulus_ratio != 1 or scene.twist_ratio > 0:  # neither is known to the tension field
+        return _by_compact(scene, reason, tolerance, lenient=lenient)
+    why = "the fabric is slack" if slack else "the smooth basis did not settle"
+    return by_loop_mesh(
+        scene, f"{why}: a mesh with a tension field was added", tolerance, lenient=lenient
+    )
+
+
+def _matters(answer: Answer, term: str) -> bool:
+    return any(left.term == term and left.matters for left in answer.omitted)
 
 
 def _by_compact(scene: LoopScene, reason: str, tolerance: float, *, lenient: bool) -> Answer:

@@ -64,7 +64,7 @@ class StVenantKirchhoff:
 
     def root(self, strain: Vectors) -> Vectors:
         """Give one matrix (3, 3) for all points."""
-        return np.linalg.cholesky(self.stiffness).T
+        return np.linalg.cholesky(self.stiffness).T.astype(np.float64, copy=False)
 
     def steady_root(self, strain: Vectors) -> Vectors:
         """Give the same: this fabric keeps its stiffness."""

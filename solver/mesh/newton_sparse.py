@@ -16,6 +16,7 @@ from solver.mesh.elements import Curvature
 from solver.mesh.factorization import Factored, Factoriser
 from solver.mesh.krylov import QuadraticModel, Step, symmetric_product, trust_region_step
 from solver.mesh.mesh_energy import MeshEnergy
+from solver.mesh.search import SearchLimits, SparseMinimum
 
 Vectors = NDArray[np.float64]
 
@@ -25,6 +26,8 @@ _CONVEX_FREE_MOTION = 1e-4
 _ROUNDING = 1e-13
 _NEXT_TO_NOTHING = 1e-9
 """Part of the energy that a minimum may lack along an all but free motion."""
+_LITTLE = 1e-6
+"""Part of the energy that a step from a minimum may still gain where fabric is wrinkled."""
 _ALL_BUT_FREE = 1e-3
 """Largest stiffness of such a motion, in units of E_f t."""
 _SMALL_GRADIENT = 1e-4
@@ -32,63 +35,6 @@ _SMALL_GRADIENT = 1e-4
 _SMALLEST_RADIUS = 1e-12
 _LONGEST_MOVE = 0.5
 """Of any vertex in one step, in units of R."""
-
-
-@dataclass(frozen=True)
-class SearchLimits:
-    """When a minimisation ends, and how far its first step may go.
-
-    Attributes
-    ----------
-    gradient : float
-        Largest component of the gradient at a minimum.
-    decrease : float
-        Ends, unconverged, when the model promises less than this fraction of the energy; 0 never.
-    radius : float
-        Of the first trust region: the square root of twice an energy.
-    steps : int
-        At most.
-    steady : bool
-        Whether steps are found with `Curvature.STEADY`, for fabric whose stiffness has kinks; such
-        a minimisation also ends where next to nothing is left to gain.
-    """
-
-    gradient: float = 1e-8
-    decrease: float = 0.0
-    radius: float = 0.3
-    steps: int = 500
-    steady: bool = False
-
-
-@dataclass(frozen=True)
-class SparseMinimum:
-    """Where a minimisation ended.
-
-    Attributes
-    ----------
-    positions : array (n, 3)
-    value, gradient_norm : float
-        Energy, and the largest component of its gradient.
-    entries : array (nnz,)
-        Of the Hessian there.
-    factored : Factored
-        Its factorisation, with a little stiffness lent to free motions, when converged.
-    negative : int
-        Negative eigenvalues of the Hessian, beyond those of free motions.
-    steps, factorizations : int
-    converged : bool
-        Whether the gradient is small and no eigenvalue is negative.
-    """
-
-    positions: Vectors
-    value: float
-    gradient_norm: float
-    entries: Vectors
-    factored: Factored
-    negative: int
-    steps: int
-    factorizations: int
-    converged: bool
 
 
 @dataclass
@@ -224,6 +170,13 @@ def _at_rest(search: _Search, state: _State, model: QuadraticModel) -> bool:
     return still or _free_to_drift(search, state, model)
 
 
+def _modelled(search: _Search, state: _State) -> tuple[QuadraticModel, Factored, Vectors]:
+    """Model of the energy at a shape, with its factorised matrix and that matrix' entries."""
+    entries = search.held(state.entries, _FREE_MOTION)
+    factored = search.factored(entries)
+    return search.model(state, entries, factored), factored, entries
+
+
 def _stepped(search: _Search, state: _State, model: QuadraticModel, radius: float) -> _Tried:
     """Try steps until one is accepted; the last one is not when the limits end the search."""
     limits, account = search.limits, search.account
@@ -238,6 +191,12 @@ def _stepped(search: _Search, state: _State, model: QuadraticModel, radius: floa
         if tried.accepted:
             return tried
         radius = tried.radius
+
+
+def _leads_nowhere(search: _Search, state: _State, tried: _Tried) -> bool:
+    """Whether a way down gains little: kinks of the stiffness open such, a saddle point others."""
+    gain = state.value - search.energy.value(tried.positions)
+    return tried.accepted and gain <= _LITTLE * abs(state.value)
 
 
 def _ended(search: _Search, state: _State, factored: Factored, *, converged: bool) -> SparseMinimum:
@@ -275,18 +234,20 @@ def minimise_sparse(
     state = search.state(positions)
     radius = limits.radius
     while True:
-        entries = search.held(state.entries, _FREE_MOTION)
-        factored = search.factored(entries)
-        model = search.model(state, entries, factored)
-        if _at_rest(search, state, model):
-            if limits.steady:
-                state = search.true_state(state)
-                entries = search.held(state.entries, _FREE_MOTION)
-                factored = search.factored(entries)
-            if factored.negative == 0:
+        model, factored, _ = _modelled(search, state)
+        at_rest = _at_rest(search, state, model)
+        if at_rest and limits.steady:
+            state = search.true_state(state)
+            model, factored, entries = _modelled(search, state)
+            if model.convex:
                 return _ended(search, state, factored, converged=True)
-            model = search.model(state, entries, factored)
-        tried = _stepped(search, state, model, radius)
+            tried = _stepped(search, state, model, limits.radius)
+            if _leads_nowhere(search, state, tried):
+                return _ended(search, state, search.factored(entries), converged=True)
+        elif at_rest:
+            return _ended(search, state, factored, converged=True)
+        else:
+            tried = _stepped(search, state, model, radius)
         if not tried.accepted:
             return _ended(search, state, factored, converged=False)
         state, radius = search.state(tried.positions), tried.radius

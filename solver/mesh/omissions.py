@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.checks import CONTACT, LARGEST_WIRE_STRAIN, writhe
+from solver.checks import CONTACT, LARGEST_WIRE_STRAIN, SLACK, TWIST, writhe
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.scene import ArrayScene
 from solver.mesh.triangulation import Wire
@@ -25,13 +25,15 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
     gap = min(_smallest_gap(loop) for loop in loops)
     turns = max(abs(writhe(_thinned(loop))) for loop in loops)
     scene = found.scene.loop if isinstance(found.scene, ArrayScene) else found.scene
+    slack = OmittedTerm(
+        SLACK,
+        "largest compressive stress / E_f",
+        max(0.0, -found.smallest_stress),
+        matters=found.smallest_stress < 0 < scene.strain,
+    )
+    # with a tension field the energy has that term
     return (
-        OmittedTerm(
-            "slack fabric (tension field)",
-            "largest compressive stress / E_f",
-            max(0.0, -found.smallest_stress),
-            matters=found.smallest_stress < 0 < scene.strain,
-        ),
+        *(() if found.tension_field else (slack,)),
         OmittedTerm(
             CONTACT,
             "distance of neighbouring wire points / smallest distance across a loop",
@@ -39,7 +41,7 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
             matters=gap < _edge_length(loops[0]),
             fatal=gap < _edge_length(loops[0]) / 2,
         ),
-        OmittedTerm("twist of the wire", "writhe of a loop", turns, matters=turns > 1e-3),
+        OmittedTerm(TWIST, "writhe of a loop", turns, matters=turns > 1e-3),
         OmittedTerm(
             "wire's softness beyond small stretch",
             "largest wire strain",

@@ -87,9 +87,7 @@ def _check_refinement(times: int) -> None:
         raise SceneError(f"refinement = {times}: must be from 0 to {LARGEST_REFINEMENT}")
 
 
-def loop_problem(
-    scene: LoopScene, refinement: int, *, tension_field: bool = False
-) -> MeshProblem:
+def loop_problem(scene: LoopScene, refinement: int, *, tension_field: bool = False) -> MeshProblem:
     """One loop on a fan of 20 triangles, refined so many times."""
     _check_refinement(refinement)
     return MeshProblem(

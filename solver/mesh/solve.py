@@ -21,10 +21,11 @@ from solver.mesh.factorization import Factoriser, factoriser
 from solver.mesh.krylov import symmetric_product
 from solver.mesh.measures import loop_heights, total_height
 from solver.mesh.mesh_energy import MeshEnergy
-from solver.mesh.newton_sparse import SearchLimits, SparseMinimum, minimise_sparse
+from solver.mesh.newton_sparse import minimise_sparse
 from solver.mesh.problem import MeshProblem, array_problem, loop_problem
 from solver.mesh.rigid import lowest_eigenvalue
 from solver.mesh.scene import ArrayScene
+from solver.mesh.search import SearchLimits, SparseMinimum
 from solver.mesh.start import aligned_saddle, array_start, loop_start, tiled_start
 from solver.mesh.triangulation import Mesh, prolonged
 from solver.scene import LoopScene
@@ -33,6 +34,7 @@ Vectors = NDArray[np.float64]
 
 _SOFT_WIRE = 30.0
 _ROUGHLY = 1e-3
+_LESS_ROUGHLY = 1e-5
 _NEARLY = 1e-6
 """Part of the energy that a coarse mesh's shape may lack: it is only where the next one starts."""
 _SMALLEST_GRADIENT = 1e-8
@@ -66,10 +68,10 @@ def _solved(
 
 
 def _roughly_solved(
-    problem: MeshProblem, level: int, start: Vectors, backend: str | None
+    problem: MeshProblem, level: int, start: Vectors, backend: str | None, decrease: float
 ) -> _Solved:
     """Minimise with a soft wire, until little is left to gain."""
-    limits = SearchLimits(decrease=_ROUGHLY)
+    limits = SearchLimits(decrease=decrease)
     return _solved(problem.softened(_SOFT_WIRE), level, start, backend, limits)
 
 
@@ -196,7 +198,7 @@ def solve_loop_mesh(
     else:
         first = min(_COARSEST_LOOP, refinement)
         lifted = loop_start(problem.energy(first), problem.meshes[first], flat_radius(scene))
-        rough = _roughly_solved(problem, first, lifted, backend)
+        rough = _roughly_solved(problem, first, lifted, backend, _ROUGHLY)
         solved = [rough, *_descend(problem, first, rough.minimum.positions, backend, most_steps)]
     return _equilibrium(scene, problem, solved, lenient=allow_unreliable)
 
@@ -235,6 +237,7 @@ def solve_array(
         solved = _descend(problem, last, tiles, backend, most_steps)
     else:
         first = _COARSEST_ARRAY
-        rough = _roughly_solved(problem, first, array_start(problem.meshes[first]), backend)
+        flat = array_start(problem.meshes[first])
+        rough = _roughly_solved(problem, first, flat, backend, _LESS_ROUGHLY)
         solved = [rough, *_descend(problem, first, rough.minimum.positions, backend, most_steps)]
     return _equilibrium(scene, problem, solved, lenient=allow_unreliable)

@@ -29,6 +29,7 @@ _STEADYING = 0.03
 """Part of the taut stiffness lent to wrinkled fabric while steps are looked for: less and they
 overshoot into the taut region and back, more and what the wire does takes more steps."""
 
+
 @dataclass(frozen=True)
 class _Axes:
     """Principal strains (m,) of e, and derivatives by e of the larger one.

@@ -60,12 +60,14 @@ def test_numbers_out_of_range(arguments, named, faults_of_command):
 
 
 def test_no_shape_to_rely_on_is_an_error():
-    result = CliRunner().invoke(
-        cli, ["solve", "--strain", "0.3", "--beta", "0.002", "--poisson", "0.3", "--json"]
-    )
+    slack = ["solve", "--strain", "0.3", "--beta", "0.002", "--poisson", "0.3", "--json"]
+    result = CliRunner().invoke(cli, [*slack, "--fidelity", "compact"])
     assert result.exit_code == 1
     assert result.stdout == ""
     assert "not a minimum" in result.stderr
+    added = json.loads(CliRunner().invoke(cli, [*slack, "--tolerance", "0.005"]).stdout)
+    assert added["rung"] == "mesh"
+    assert "fabric stretch (tension field)" in added["energy_terms"]
 
 
 def test_every_rung_gives_the_same_keys():
@@ -83,8 +85,11 @@ def test_every_rung_gives_the_same_keys():
 def test_arrays_and_ellipses():
     tiled = json.loads(_run("--loops", "3x3", "--json").stdout)
     assert tiled["rung"] == "compact"
-    ellipse = json.loads(_run("--axis-ratio", "1.2", "--json").stdout)
-    assert ellipse["height_over_perimeter"] == pytest.approx(0.1294, abs=2e-4)
+    ellipse = ("--axis-ratio", "1.2", "--json")
+    untwisted = json.loads(_run(*ellipse, "--fidelity", "compact").stdout)
+    assert untwisted["height_over_perimeter"] == pytest.approx(0.1294, abs=2e-4)
+    assert untwisted["kind"] == "diagonal"
+    assert json.loads(_run(*ellipse).stdout)["kind"] == "aligned"
     kept = json.loads(
         _run("--loops", "2x2", "--between", "kept", "--tolerance", "0.05", "--json").stdout
     )

@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from solver.equilibrium import Kind
 from solver.errors import NotConvergedError, SceneError
 from solver.ladder.answer import Rung
 from solver.ladder.choose import solve_scene
@@ -96,3 +97,33 @@ def test_the_law_loads_no_sparse_matrices():
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert run.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize(("strain", "beta"), [(0.3, 0.002), (0.5, 0.005)])
+def test_slack_fabric_gets_a_tension_field(strain, beta):
+    answer = solve_scene(LoopScene(strain, beta, 0.3), tolerance=5e-3)
+    assert answer.rung is Rung.MESH
+    assert "tension field" in answer.reason
+    assert "fabric stretch (tension field)" in answer.terms
+    assert all("slack" not in left.term for left in answer.omitted)
+    assert answer.height_over_perimeter == pytest.approx(0.156, abs=3e-3)
+
+
+def test_what_slack_fabric_allows_no_nearer_is_told():
+    with pytest.raises(NotConvergedError, match="allow a larger tolerance"):
+        solve_scene(LoopScene(0.3, 0.002, 0.3), tolerance=1e-5)
+
+
+def test_a_shape_with_writhe_gets_the_wires_twist():
+    """Without twist the ellipse's diagonal saddle is lowest; with it, the one along the axes."""
+    scene = LoopScene(0.3, 0.0145, 0.3, axis_ratio=1.5)
+    without = solve_scene(scene, fidelity=Fidelity.COMPACT)
+    answer = solve_scene(scene)
+    assert without.equilibrium.kind is Kind.DIAGONAL
+    assert answer.equilibrium.kind is Kind.ALIGNED
+    assert "twist was added" in answer.reason
+    assert answer.equilibrium.scene.twist_ratio == 0.75
+
+
+def test_a_round_loop_needs_no_twist():
+    assert solve_scene(LOOP).equilibrium.scene.twist_ratio == 0

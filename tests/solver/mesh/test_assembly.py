@@ -61,7 +61,7 @@ PROBLEMS = [
 
 
 @pytest.mark.parametrize("problem", PROBLEMS)
-@pytest.mark.parametrize("curvature", list(Curvature))
+@pytest.mark.parametrize("curvature", [Curvature.TRUE, Curvature.CONVEX])
 def test_whole_meshes_against_centred_differences(problem, curvature):
     rng = np.random.default_rng(0)
     energy = problem.energy(1)

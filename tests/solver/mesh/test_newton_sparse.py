@@ -11,9 +11,10 @@ from solver.mesh.krylov import (
     symmetric_product,
     trust_region_step,
 )
-from solver.mesh.newton_sparse import SearchLimits, minimise_sparse
+from solver.mesh.newton_sparse import minimise_sparse
 from solver.mesh.problem import loop_problem
 from solver.mesh.rigid import lowest_eigenvalue, rigid_motions
+from solver.mesh.search import SearchLimits
 from solver.mesh.solve import mass_of
 from solver.mesh.triangulation import Wire, embedded
 from solver.scene import LoopScene
