@@ -72,7 +72,7 @@ def _loop_data(found: Equilibrium) -> Data:
         "pitch_over_diameter": found.shape.width / 2,
         "height_change": found.height_change,
         "kind": str(found.kind),
-        **_account(found),
+        **solve_account(found),
     }
 
 
@@ -84,11 +84,12 @@ def _mesh_data(found: MeshEquilibrium) -> Data:
         "loop_heights_over_radius": [float(height) for height in found.loop_heights],
         "triangles": len(found.mesh.triangles),
         "compressed_fraction": found.compressed_fraction,
-        **_account(found),
+        **solve_account(found),
     }
 
 
-def _account(found: Equilibrium | MeshEquilibrium) -> Data:
+def solve_account(found: Equilibrium | MeshEquilibrium) -> Data:
+    """Keys that tell how a shape was found, and with what energy."""
     return {
         "energy": found.energy,
         "energy_terms": found.energy_terms,

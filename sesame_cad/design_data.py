@@ -9,6 +9,7 @@ from patterns.circuit import CrossingKind
 from patterns.electrics import resistance_ohm
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
+from sesame_cad.answer_data import solve_account
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.specification import Specification
 from sesame_cad.state import State
@@ -86,14 +87,7 @@ def loop_data(found: Equilibrium, seconds: float) -> Data:
         "pitch_mm": None,
         "pitch_over_diameter": shape.width / 2,
         "energy_mJ": None,
-        "energy": found.energy,
-        "energy_terms": found.energy_terms,
-        "status": found.status,
-        "gradient_norm": found.gradient_norm,
-        "lowest_eigenvalue": found.lowest_eigenvalue,
-        "steps": found.steps,
-        "factorizations": found.factorizations,
-        "unknowns": found.unknowns,
+        **solve_account(found),
         "height_change": found.height_change,
         "seconds": round(seconds, 6),
         "omitted_terms": _omitted_data(found.omitted),
