@@ -19,6 +19,8 @@ from patterns.outline import Outline, cut_outline
 from patterns.plan import StitchPlan
 from patterns.registration import Mark, registration_marks
 from patterns.rules import check_outline, check_plan
+from patterns.rules.insulation import check_insulation
+from patterns.rules.subject import Subject
 from patterns.stitch_plan import stitch_plan
 from patterns.violation import Violation
 from sesame_cad.errors import InputError
@@ -141,17 +143,14 @@ def _first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) 
 
 def covered_crossings(spec: Specification, laid: Pattern) -> tuple[Crossing, ...]:
     """Crossings of the wire that thread insulates, judged by the stitches themselves."""
-    bare = [
-        violation
-        for violation in check_plan(
-            laid.circuit,
-            laid.plan,
-            spec.patterns_machine(),
-            spec.patterns_stitching(),
-            spec.wire.diameter_mm,
-        )
-        if violation.rule == "insulation"
-    ]
+    subject = Subject(
+        laid.circuit,
+        laid.plan,
+        spec.patterns_machine(),
+        spec.patterns_stitching(),
+        spec.wire.diameter_mm,
+    )
+    bare = check_insulation(subject)
     crossings = laid.circuit.crossings
     shorted = {
         min(crossings, key=lambda c: hypot(c.x_mm - fault.x_mm, c.y_mm - fault.y_mm))
