@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solver.mesh.descent import mass_of
 from solver.mesh.factorization import available, factoriser
 from solver.mesh.krylov import (
     QuadraticModel,
@@ -15,7 +16,6 @@ from solver.mesh.newton_sparse import minimise_sparse
 from solver.mesh.problem import loop_problem
 from solver.mesh.rigid import lowest_eigenvalue, rigid_motions
 from solver.mesh.search import SearchLimits
-from solver.mesh.solve import mass_of
 from solver.mesh.triangulation import Wire, embedded
 from solver.scene import LoopScene
 

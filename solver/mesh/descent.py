@@ -1,0 +1,79 @@
+"""Minimise on a sequence of meshes, from coarse to fine.
+
+Most steps are spent on the coarsest mesh, first with a wire that may stretch a little: the curved
+valley along which a stiff wire keeps its length takes many steps to follow. Each finer mesh starts
+from the shape of the one before and takes a few.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.mesh.factorization import Factoriser, factoriser
+from solver.mesh.mesh_energy import MeshEnergy
+from solver.mesh.newton_sparse import minimise_sparse
+from solver.mesh.problem import MeshProblem
+from solver.mesh.search import SearchLimits, SparseMinimum
+from solver.mesh.triangulation import Mesh, prolonged
+
+Vectors = NDArray[np.float64]
+
+_SOFT_WIRE = 30.0
+_NEARLY = 1e-6
+"""Part of the energy that a coarse mesh's shape may lack: it is only where the next one starts."""
+_SMALLEST_GRADIENT = 1e-8
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The minimum on one mesh, and what it was found with."""
+
+    energy: MeshEnergy
+    factoriser: Factoriser
+    minimum: SparseMinimum
+
+
+def mass_of(mesh: Mesh) -> Vectors:
+    """Weight (n,) of each vertex in mean squares: its share of fabric over that of one loop."""
+    return mesh.vertex_areas / np.pi
+
+
+def solved_on(
+    problem: MeshProblem, level: int, start: Vectors, backend: str | None, limits: SearchLimits
+) -> Solved:
+    """Minimise on one of the meshes, within limits."""
+    energy = problem.energy(level)
+    factors = factoriser(energy.pattern, backend)
+    mass = mass_of(problem.meshes[level])
+    limits = replace(limits, steady=problem.tension_field)
+    return Solved(energy, factors, minimise_sparse(energy, start, mass, factors, limits))
+
+
+def roughly_solved(
+    problem: MeshProblem, level: int, start: Vectors, backend: str | None, decrease: float
+) -> Solved:
+    """Minimise with a soft wire, until little is left to gain."""
+    limits = SearchLimits(decrease=decrease)
+    return solved_on(problem.softened(_SOFT_WIRE), level, start, backend, limits)
+
+
+def descend(
+    problem: MeshProblem, first: int, start: Vectors, backend: str | None, most_steps: int
+) -> list[Solved]:
+    """Minimise on one mesh after the other, from the one numbered ``first`` on."""
+    stiffest = max(max(100 * w.beta, w.axial_stiffness) for w in problem.wires)
+    # a smaller gradient could not be told from the rounding of the wires' stiff terms
+    gradient = max(_SMALLEST_GRADIENT, 1e-11 * stiffest)
+    limits = SearchLimits(gradient=gradient, steps=most_steps)
+    meshes = problem.meshes
+    found: list[Solved] = []
+    for k in range(first, len(meshes)):
+        if k > first:
+            start = prolonged(meshes[k - 1], meshes[k], found[-1].minimum.positions)
+        finest = k == len(meshes) - 1
+        asked = limits if finest else replace(limits, decrease=_NEARLY)
+        found.append(solved_on(problem, k, start, backend, asked))
+    return found
