@@ -41,6 +41,23 @@ def turn_of_fabric(shape: Expansion) -> Expansion:
 
 
 @lru_cache(maxsize=128)
+def _all_maps(basis: DiscBasis, motions: DiscBasis) -> tuple[Vectors, Vectors]:
+    """The seven motions as functions of the shape: constant (7, m) and linear part (7, m, n)."""
+    linear = np.zeros((7, motions.size, basis.size))
+    for i in range(basis.size):
+        unit = np.zeros(basis.size)
+        unit[i] = 1.0
+        shape = LoopShape(basis.unknowns, unit).expansion
+        found = [rotation(shape, *axes) for axes in ((0, 1), (0, 2), (1, 2))]
+        for k, motion in enumerate([*found, turn_of_fabric(shape)]):
+            linear[3 + k, :, i] = from_expansion(motions.unknowns, motion)
+    constant = np.zeros((7, motions.size))
+    for k in range(3):
+        constant[k] = from_expansion(motions.unknowns, translation(k))
+    return constant, linear
+
+
+@lru_cache(maxsize=128)
 def motion_maps(basis: DiscBasis, motions: DiscBasis, isotropic: bool) -> tuple[Vectors, Vectors]:
     """Free motions as functions of the shape: constant (f, m) and linear part (f, m, n).
 
@@ -53,19 +70,9 @@ def motion_maps(basis: DiscBasis, motions: DiscBasis, isotropic: bool) -> tuple[
     isotropic : bool
         Whether a circular loop cannot feel which way its fabric is turned.
     """
-    linear = np.zeros((7, motions.size, basis.size))
-    for i in range(basis.size):
-        unit = np.zeros(basis.size)
-        unit[i] = 1.0
-        shape = LoopShape(basis.unknowns, unit).expansion
-        found = [rotation(shape, *axes) for axes in ((0, 1), (0, 2), (1, 2))]
-        found += [turn_of_fabric(shape)] if isotropic else []
-        for k, motion in enumerate(found):
-            linear[3 + k, :, i] = from_expansion(motions.unknowns, motion)
-    constant = np.zeros((7, motions.size))
-    for k in range(3):
-        constant[k] = from_expansion(motions.unknowns, translation(k))
+    constant, linear = _all_maps(basis, motions)
     kept = np.abs(constant).any(axis=1) | np.abs(linear).any(axis=(1, 2))
+    kept[6] &= isotropic
     return constant[kept], linear[kept]
 
 
@@ -73,7 +80,18 @@ def free_motions_of(
     basis: DiscBasis, motions: DiscBasis, q: Vectors, *, isotropic: bool
 ) -> Vectors:
     """Free motions (…, f, m) of shapes q (…, n), each of length 1; some may be the same."""
-    constant, linear = motion_maps(basis, motions, isotropic)
+    return _of_length_1(*motion_maps(basis, motions, isotropic), q)
+
+
+def all_motions_of(basis: DiscBasis, motions: DiscBasis, q: Vectors) -> Vectors:
+    """Three shifts, three turns in xy, xz and yz, and the fabric's turn of a shape q (n,), (7, m).
+
+    Each has length 1, or is 0 where the motions' basis holds nothing of it.
+    """
+    return _of_length_1(*_all_maps(basis, motions), q)
+
+
+def _of_length_1(constant: Vectors, linear: Vectors, q: Vectors) -> Vectors:
     free = constant + (linear @ q[..., None, :, None])[..., 0]
     return free / np.maximum(np.sqrt(np.sum(free * free, axis=-1, keepdims=True)), 1e-300)
 
