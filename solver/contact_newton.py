@@ -92,12 +92,13 @@ def _step(
 
 
 def convex_along(hessian: Vectors, rows: Vectors) -> bool:
-    """Whether a Hessian (n, n) is positive definite along motions that rows (a, n) allow."""
-    if len(rows):
-        q, _ = np.linalg.qr(rows.T, mode="complete")
-        allowed = q[:, len(rows) :]
-        hessian = allowed.T @ hessian @ allowed
-    return dpotrf(hessian)[1] == 0
+    """Whether a Hessian (n, n) is positive definite along motions that rows (a, n) allow.
+
+    The others are given more than the stiffness of the stiffest (Debreu, Econometrica 20 (1952)
+    295: a form is positive where R p = 0 if, and only if, H + σ Rᵀ R is for some large σ).
+    """
+    stiffest = float(np.abs(np.diagonal(hessian)).sum())
+    return dpotrf(hessian + stiffest * (rows.T @ rows))[1] == 0
 
 
 def drift(energy: LoopEnergy) -> Vectors:
@@ -133,7 +134,7 @@ def held_minimum(
     unilateral : bool
         Whether the forces only push.
     roughly : float
-        Length of the step after which it is near enough; 0 for as near as rounding allows.
+        Length of the last step if that is near enough; 0 for as near as rounding allows.
     """
     q, stretched, hold = start, tension, drift(energy)
     touches = find(q)
@@ -152,7 +153,8 @@ def held_minimum(
         if settled or length <= roughly:
             pressed = pushes > 0 if unilateral else np.ones(len(pushes), dtype=bool)
             convex = convex_along(hessian, touches.rows[pressed])
-            minimum = Minimum(q, value, norm, hessian, steps, steps + 1, settled)
+            near = q if settled else q + p
+            minimum = Minimum(near, value, norm, hessian, steps, steps + 1, settled)
             found = HeldMinimum(minimum, stretched, touches.chosen(pressed), pushes[pressed])
             return found if convex else None
         if not np.isfinite(length):

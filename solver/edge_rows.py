@@ -25,12 +25,19 @@ class EdgeRows:
     cosines: Vectors
     sines: Vectors
 
-    def at(self, theta: Vectors, derivative: int = 0) -> Vectors:
-        """Rows (k, n) of the coordinate at angles (k,), or of a derivative by the angle."""
+    def at(self, theta: Vectors) -> tuple[Vectors, Vectors, Vectors]:
+        """Rows (k, n) of the coordinate at angles (k,), and of its first and second derivative."""
         m = np.arange(len(self.cosines), dtype=float)
-        phase = np.multiply.outer(theta, m) + derivative * (np.pi / 2)
-        power = m**derivative
-        return (np.cos(phase) * power) @ self.cosines + (np.sin(phase) * power) @ self.sines
+        phase = np.multiply.outer(theta, m)
+        c, s = np.cos(phase), np.sin(phase)
+        value = c @ self.cosines + s @ self.sines
+        slope = (m * c) @ self.sines - (m * s) @ self.cosines
+        bend = (m * m * c) @ self.cosines + (m * m * s) @ self.sines
+        return value, slope, -bend
+
+    def of(self, q: Vectors) -> EdgeRows:
+        """Give the coordinate of one shape q (n,) as rows of a single unknown."""
+        return EdgeRows((self.cosines @ q)[:, None], (self.sines @ q)[:, None])
 
 
 @lru_cache(maxsize=256)

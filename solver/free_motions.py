@@ -71,8 +71,8 @@ def motion_maps(basis: DiscBasis, motions: DiscBasis, isotropic: bool) -> tuple[
         Whether a circular loop cannot feel which way its fabric is turned.
     """
     constant, linear = _all_maps(basis, motions)
-    kept = np.abs(constant).any(axis=1) | np.abs(linear).any(axis=(1, 2))
-    kept[6] &= isotropic
+    kept = np.flatnonzero(np.abs(constant).any(axis=1) | np.abs(linear).any(axis=(1, 2)))
+    kept = kept if isotropic else kept[kept < 6]
     return constant[kept], linear[kept]
 
 

@@ -23,6 +23,9 @@ from solver.plates import Contact, Pitch, PlateAxis, Plates
 from solver.scene import LoopScene
 from solver.symmetry import ALIGNED
 
+_PLENTY = 4
+"""How much better than asked a basis must have been for the next solve to end in a smaller one."""
+
 __all__ = ["HeldEquilibrium", "Pitch", "PlateAxis", "Plates"]
 __all__ += ["held_path", "solve_at_pitch", "solve_between_plates"]
 
@@ -100,7 +103,7 @@ def _hold(
         raise SceneError(
             f"axis_ratio = {scene.axis_ratio:g}: held loops are modelled as circles, use 1"
         )
-    if _flat_fits(scene, hold):
+    if isinstance(hold, Plates) and _flat_fits(scene, hold):
         solved = flat_between(scene, hold)
     else:
         solved = _solved(scene, hold, tolerance, start)
@@ -110,9 +113,9 @@ def _hold(
     return found
 
 
-def _flat_fits(scene: LoopScene, hold: Plates | Pitch) -> bool:
+def _flat_fits(scene: LoopScene, hold: Plates) -> bool:
     """Whether the flat loop is the answer: it resists buckling, and the plates leave it room."""
-    if isinstance(hold, Pitch) or not (scene.isotropic_circle and stays_flat(scene)):
+    if not (scene.isotropic_circle and stays_flat(scene)):
         return False
     return hold.axis is PlateAxis.HEIGHT or flat_radius(scene) <= hold.wire_reach
 
@@ -121,10 +124,18 @@ def _solved(
     scene: LoopScene, hold: Plates | Pitch, tolerance: float, start: HeldEquilibrium | None
 ) -> HeldSolved:
     if start is None or not start.height > 0:
-        return refine_held(scene, hold, fitting_saddle(scene, hold), (), tolerance)
+        return refine_held(scene, hold, fitting_saddle(scene, hold), tolerance=tolerance)
     guess = disc_basis(start.degree, ALIGNED), start.shape.coefficients
-    first = max(0, HELD_DEGREES.index(start.degree) - 1)
-    return refine_held(scene, hold, guess, _known(start, hold), tolerance, HELD_DEGREES[first:])
+    lower = 2 if start.change <= tolerance / _PLENTY else 1
+    first = max(0, HELD_DEGREES.index(start.degree) - lower)
+    return refine_held(
+        scene,
+        hold,
+        guess,
+        tolerance=tolerance,
+        known=_known(start, hold),
+        degrees=HELD_DEGREES[first:],
+    )
 
 
 def _known(start: HeldEquilibrium, hold: Plates | Pitch) -> tuple[Contact, ...]:

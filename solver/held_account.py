@@ -38,8 +38,8 @@ def plates_share(plates: Plates) -> float:
 
 def room_across(basis: DiscBasis, q: Vectors) -> float:
     """Smallest distance of the wire from its mirror images; negative where it has crossed one."""
-    x = edge_rows(basis, 0).at(_QUARTER) @ q
-    y = edge_rows(basis, 1).at(_QUARTER) @ q
+    x = edge_rows(basis, 0).of(q).at(_QUARTER)[0][:, 0]
+    y = edge_rows(basis, 1).of(q).at(_QUARTER)[0][:, 0]
     middle = len(_QUARTER) // 2
     crossed = min(x[:-1].min(), y[1:].min())
     apart = min(x[: middle + 1].min(), y[middle:].min())

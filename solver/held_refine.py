@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from solver.contact_newton import HeldMinimum, held_minimum
-from solver.disc_basis import DiscBasis, disc_basis, transfer
+from solver.disc_basis import DiscBasis, disc_basis
 from solver.errors import NotConvergedError
 from solver.flat import flat_shape
 from solver.held_start import pressed, touches_of
 from solver.loop_energy import LoopEnergy, loop_energy
 from solver.newton import Minimum
 from solver.plates import Contact, Pitch, Plates
+from solver.refine import carried
 from solver.scene import LoopScene
 from solver.shape import from_expansion
 from solver.stiff_newton import tension_of
@@ -32,6 +34,9 @@ _NEAR_ENOUGH = 1e-2
 
 _CLEAR_BEND = 0.05
 """Wire that leaves the plate less quickly lies nearly along it: its touching points jump."""
+
+_ROUGHLY = 1e-4
+"""Length of the last step in all bases but the last."""
 
 _CREDIBLE_TENSION = 5.0
 _SMALL_FORCE = 0.01
@@ -95,67 +100,90 @@ def flat_between(scene: LoopScene, hold: Plates) -> HeldSolved:
     return HeldSolved(hold, energy, HeldMinimum(minimum, tension_of(energy, q), touches, none))
 
 
-def _tries(
-    energy: LoopEnergy, hold: Plates | Pitch, start: Vectors, known: Sequence[Contact]
-) -> Iterator[HeldMinimum | None]:
-    """Ways to the minimum near a shape, the quickest first."""
-    tension = tension_of(energy, start)
-    if np.abs(tension).max() > _CREDIBLE_TENSION:
-        tension = np.zeros_like(tension)
+@dataclass(frozen=True, eq=False)
+class _Guess:
+    """A shape q (n,) near a minimum, with its wire's tension and its contacts."""
 
-    def exactly(q: Vectors, force: Vectors, contacts: Sequence[Contact]) -> HeldMinimum | None:
+    q: Vectors
+    tension: Vectors
+    contacts: Sequence[Contact]
+
+    def solved(
+        self, energy: LoopEnergy, hold: Plates | Pitch, roughly: float, *, sampled: bool = False
+    ) -> HeldMinimum | None:
+        """Follow Newton's steps from here."""
         return held_minimum(
             energy,
-            q,
-            lambda at: touches_of(energy.basis, hold, at),
-            tension=force,
-            before=contacts,
+            self.q,
+            lambda q: touches_of(energy.basis, hold, q, sampled=sampled),
+            tension=self.tension,
+            before=self.contacts,
             unilateral=isinstance(hold, Plates),
-        )
-
-    def by_samples(roughly: float) -> HeldMinimum | None:
-        return held_minimum(
-            energy,
-            start,
-            lambda at: touches_of(energy.basis, hold, at, sampled=True),
-            tension=tension,
-            before=known,
             roughly=roughly,
         )
 
-    if isinstance(hold, Pitch) or (known and min(c.bend for c in known) > _CLEAR_BEND):
-        yield exactly(start, tension, known)
+
+def _guess(energy: LoopEnergy, q: Vectors, contacts: Sequence[Contact]) -> _Guess:
+    tension = tension_of(energy, q)
+    credible = np.abs(tension).max() < _CREDIBLE_TENSION
+    return _Guess(q, tension if credible else np.zeros_like(tension), contacts)
+
+
+def _next_guess(found: HeldMinimum) -> _Guess:
+    contacts = found.touches.contacts(found.force)
+    return _Guess(found.minimum.unknowns, found.tension, contacts)
+
+
+def _after(found: HeldMinimum, earlier: Minimum) -> HeldMinimum:
+    return replace(found, minimum=found.minimum.after(earlier))
+
+
+def _tries(
+    energy: LoopEnergy, hold: Plates | Pitch, guess: _Guess, roughly: float
+) -> Iterator[HeldMinimum | None]:
+    """Ways to the minimum near a shape, the quickest first."""
+    clear = [contact.bend > _CLEAR_BEND for contact in guess.contacts]
+    if isinstance(hold, Pitch) or (clear and all(clear)):
+        yield guess.solved(energy, hold, roughly)
     if isinstance(hold, Pitch):
         return
-    rough = by_samples(_NEAR_ENOUGH)
+    rough = guess.solved(energy, hold, _NEAR_ENOUGH, sampled=True)
     if rough is not None:
-        contacts = rough.touches.contacts(rough.force)
-        found = exactly(rough.minimum.unknowns, rough.tension, contacts)
-        yield found and replace(found, minimum=found.minimum.after(rough.minimum))
-    yield exactly(start, tension, known)
-    yield by_samples(0.0)
+        found = _next_guess(rough).solved(energy, hold, roughly)
+        yield found and _after(found, rough.minimum)
+    yield guess.solved(energy, hold, roughly)
+    yield guess.solved(energy, hold, 0.0, sampled=True)
 
 
 def _minimum_near(
-    energy: LoopEnergy, hold: Plates | Pitch, start: Vectors, known: Sequence[Contact]
+    energy: LoopEnergy, hold: Plates | Pitch, guess: _Guess, roughly: float
 ) -> HeldMinimum | None:
     """Find the minimum near a shape; from soft plates, if rigid ones give no way."""
-    for found in _tries(energy, hold, start, known):
+    for found in _tries(energy, hold, guess, roughly):
         if found is not None:
             return found
-    soft = pressed(energy, hold, start)
-    for found in _tries(energy, hold, soft.unknowns, ()):
+    soft = pressed(energy, hold, guess.q)
+    for found in _tries(energy, hold, _guess(energy, soft.unknowns, ()), roughly):
         if found is not None:
-            return replace(found, minimum=found.minimum.after(soft))
+            return _after(found, soft)
     return None
+
+
+def _finished(energy: LoopEnergy, hold: Plates | Pitch, found: HeldMinimum) -> HeldMinimum | None:
+    """Follow the steps to the end."""
+    if found.minimum.converged:
+        return found
+    last = _minimum_near(energy, hold, _next_guess(found), 0.0)
+    return last and _after(last, found.minimum)
 
 
 def refine_held(
     scene: LoopScene,
     hold: Plates | Pitch,
     start: tuple[DiscBasis, Vectors],
-    known: Sequence[Contact],
+    *,
     tolerance: float,
+    known: Sequence[Contact] = (),
     degrees: Sequence[int] = HELD_DEGREES,
 ) -> HeldSolved:
     """Solve in one basis after the other, at least two, until force and height stand still.
@@ -164,10 +192,10 @@ def refine_held(
     ----------
     start : DiscBasis and array (n,)
         A first guess in any space.
-    known : sequence of Contact
-        Those of the first guess, with the Lagrangian's forces.
     tolerance : float
         Of the relative change.
+    known : sequence of Contact
+        Those of the first guess, with the Lagrangian's forces.
     degrees : sequence of int
         Of the bases.
 
@@ -176,23 +204,26 @@ def refine_held(
     NotConvergedError
         When a basis has no minimum near that of the one before.
     """
-    basis, q = start
     solved: list[HeldSolved] = []
     for degree in degrees:
         energy = loop_energy(scene, disc_basis(degree, ALIGNED))
-        found = _minimum_near(energy, hold, transfer(basis, energy.basis) @ q, known)
-        if found is None:
-            raise NotConvergedError(
-                f"not converged: no minimum was reached with {energy.basis.size} unknowns; "
-                "change gap, pitch or beta in smaller steps, each from the solution before, "
-                "or take a wider gap"
-            )
-        now = HeldSolved(hold, energy, found)
+        last = (solved[-1].basis, solved[-1].unknowns) if solved else None
+        q = carried(start, last, energy.basis)
+        contacts = solved[-1].contacts if solved else known
+        found = _minimum_near(energy, hold, _guess(energy, q, contacts), _ROUGHLY)
+        now = HeldSolved(hold, energy, found or _refused(energy))
         if solved:
-            total = replace(found, minimum=found.minimum.after(solved[-1].found.minimum))
-            now = replace(now, found=total, change=now.changed(solved[-1]))
+            now = replace(now, found=_after(now.found, solved[-1].found.minimum))
+            now = replace(now, change=now.changed(solved[-1]))
         solved.append(now)
-        basis, q, known = now.basis, now.unknowns, now.contacts
         if len(solved) > 1 and now.change <= tolerance:
             break
-    return solved[-1]
+    energy = solved[-1].energy
+    return replace(solved[-1], found=_finished(energy, hold, solved[-1].found) or _refused(energy))
+
+
+def _refused(energy: LoopEnergy) -> NoReturn:
+    raise NotConvergedError(
+        f"not converged: no minimum was reached with {energy.basis.size} unknowns; change gap, "
+        "pitch or beta in smaller steps, each from the solution before, or take a wider gap"
+    )

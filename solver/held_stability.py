@@ -47,12 +47,12 @@ def _contact_rows(
     rows, slopes = np.empty((2, len(contacts), basis.size))
     for i, contact in enumerate(contacts):
         angle = np.array([contact.angle_rad])
-        if contact.radius == 1.0:
-            rows[i] = wire.at(angle)[0]
-        else:
-            radius = np.array([contact.radius])
-            rows[i] = position_map(basis.unknowns, radius, angle)[0, component]
-        slopes[i] = wire.at(angle, 1)[0] * math.sqrt(contact.force / contact.bend)
+        on_wire, slope, _ = wire.at(angle)
+        slopes[i] = slope[0] * math.sqrt(contact.force / contact.bend)
+        radius = np.array([contact.radius])
+        within = contact.radius < 1
+        inside = position_map(basis.unknowns, radius, angle)[:, component] if within else on_wire
+        rows[i] = inside[0]
     return rows, slopes
 
 
@@ -60,7 +60,7 @@ def _pitch_rows(basis: DiscBasis, mirrors: Mirrors, pitch: Pitch) -> Vectors:
     """Rows (k, m) by which motions change the prescribed distances."""
     held = [(0, 0.0)] + ([(1, np.pi / 2)] if pitch.width is not None else [])
     # a motion that a mirror changes in sign moves both ends of a distance the same way
-    kept = [edge_rows(basis, c).at(np.array([a])) for c, a in held if mirrors[c] == 0]
+    kept = [edge_rows(basis, c).at(np.array([a]))[0] for c, a in held if mirrors[c] == 0]
     return np.concatenate([np.zeros((0, basis.size)), *kept])
 
 
@@ -116,11 +116,12 @@ def held_stability(
     highest = min(basis.degree + 1, max(telling_degree(scene, stress, basis.degree), waves))
     touching = bool(contacts) or isinstance(hold, Pitch)
     costless = _costless(hold, touching=touching, isotropic=scene.isotropic_circle)
-    turns = np.array([False] * 3 + [True] * 3 + [False])
+    # bonds hold the wire's tangents too, and so the saddle's axes in the loop
+    turns = np.array([False] * 3 + [True] * 3 + [isinstance(hold, Pitch)])
     upright, tilting = math.inf, math.inf
     for symmetry in classes_of(ALIGNED):
         moves = motions(basis, ALIGNED, symmetry, highest)
-        hessian = hessian_along(scene, moves, q)
+        hessian = hessian_along(scene, moves, q, tabulated=False)
         if isinstance(hold, Plates):
             rows, slopes = _contact_rows(moves.basis, hold.axis.component, contacts)
             hessian = hessian + slopes.T @ slopes

@@ -6,6 +6,7 @@ basis to basis is the estimate of the error.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -29,6 +30,13 @@ _GRADIENT_TOLERANCE = 1e-8
 _ROUGHLY = 1e-6
 _SOFTER = 1e4
 _MOST_STEPS = 120
+_FIRST_BASIS_STEP = 0.01
+"""Length of the last step in the first basis, which is never the last, over √tolerance.
+
+What Newton's method lacks after a step goes with its square (some 5 times it, as measured), so that
+this is less than a thousandth of the tolerance.
+"""
+
 _LARGE = 50
 _MOST_STEPS_OF_LARGE = 20
 """Where a large basis does not follow from a smaller one at once, the shape has no smooth limit."""
@@ -80,15 +88,18 @@ _CREDIBLE_TENSION = 2.0
 """In units of E_f t R; a coarse shape's stretch may give a stiff wire any tension beyond that."""
 
 
-def settle(scene: LoopScene, energy: LoopEnergy, start: Vectors, *, solved: bool) -> Minimum:
+def settle(
+    scene: LoopScene, energy: LoopEnergy, start: Vectors, *, solved: bool, roughly: float = 0.0
+) -> Minimum:
     """Find the minimum near a first guess: quickly if the guess is good, and safely if not.
 
-    ``solved`` says whether the guess is the solution in a smaller basis.
+    ``solved`` says whether the guess is the solution in a smaller basis, ``roughly`` how long the
+    last step may be where the guess is good.
     """
     tension = tension_of(energy, start)
     known = solved and np.abs(tension).max() < _CREDIBLE_TENSION
     none = np.zeros_like(tension)
-    found = stiff_minimum(energy, start, tension if known else none)
+    found = stiff_minimum(energy, start, tension if known else none, roughly=roughly)
     if found is not None:
         return found
     most_steps = _MOST_STEPS if len(start) <= _LARGE else _MOST_STEPS_OF_LARGE
@@ -108,6 +119,17 @@ def settle(scene: LoopScene, energy: LoopEnergy, start: Vectors, *, solved: bool
         radius=0.1,
         most_steps=most_steps,
     )
+
+
+def carried(
+    guess: tuple[DiscBasis, Vectors], last: tuple[DiscBasis, Vectors] | None, into: DiscBasis
+) -> Vectors:
+    """Coefficients (n,) of the last shape, which the first guess completes where it knew more."""
+    out = transfer(guess[0], into) @ guess[1]
+    if last is None:
+        return out
+    known = transfer(last[0], into)
+    return out + known @ (last[1] - known.T @ out)
 
 
 def refine(
@@ -132,16 +154,20 @@ def refine(
     solved : bool
         Whether the first guess is the solution of a neighbouring scene.
     """
-    basis, q = start
+    last: tuple[DiscBasis, Vectors] | None = None
     height = 0.0
     steps = factorizations = 0
     refined: list[Refined] = []
     for degree in degrees:
         energy = loop_energy(scene, disc_basis(degree, space))
         minimum = settle(
-            scene, energy, transfer(basis, energy.basis) @ q, solved=solved or bool(refined)
+            scene,
+            energy,
+            carried(start, last, energy.basis),
+            solved=solved or bool(refined),
+            roughly=0.0 if refined else _FIRST_BASIS_STEP * math.sqrt(tolerance),
         )
-        basis, q = energy.basis, minimum.unknowns
+        basis, q = last = energy.basis, minimum.unknowns
         steps += minimum.steps
         factorizations += minimum.factorizations
         before, height = height, height_of(space, basis, q)

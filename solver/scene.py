@@ -19,7 +19,9 @@ LARGEST_TWIST_RATIO = 10.0
 ROUND_WIRE_TWIST_RATIO = 0.75
 """GJ/EI = 1/(1 + ν) of a round wire (J = 2I, G = E/2(1 + ν)), for ν = 1/3 of nickel-titanium.
 
-Poisson's ratio as makers' data sheets give it (0.33).
+A maker's table gives 0.33 ("Nitinol technical properties", Principles of Nitinol, at
+medicaldevicecomponents.com); another's says "approximately 0.3" (ti-mart.com/cases/cases154.html),
+which would make it 0.77.
 """
 
 

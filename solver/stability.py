@@ -117,10 +117,15 @@ def motions(shapes: DiscBasis, space: Space, symmetry: Symmetry, highest: int) -
     return Motions(shapes, basis, home.gradient @ into, home.edge @ into, writhing)
 
 
-def hessian_along(scene: LoopScene, moves: Motions, q: Vectors) -> Vectors:
-    """Second variation (m, m) along motions of one class, at the shape q (n,)."""
+def hessian_along(
+    scene: LoopScene, moves: Motions, q: Vectors, *, tabulated: bool = True
+) -> Vectors:
+    """Second variation (m, m) along motions of one class, at the shape q (n,).
+
+    ``tabulated`` makes a table for small bases, which pays after some hundred shapes.
+    """
     basis, membrane = moves.basis, scene_membrane(scene)
-    if scene.isotropic_circle and moves.few:
+    if tabulated and scene.isotropic_circle and moves.few:
         fabric = FabricPolynomial(moves.table, membrane.strain, membrane.a, membrane.b).hessian(q)
     else:
         fabric = membrane.derivatives(moves.gradient @ q, basis.area, basis.gradient)[2]

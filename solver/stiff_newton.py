@@ -35,10 +35,18 @@ def tension_of(energy: LoopEnergy, q: Vectors) -> Vectors:
     return energy.rod.force_ahead(tangent, np.zeros_like(tangent), energy.speed)
 
 
-def stiff_minimum(energy: LoopEnergy, start: Vectors, tension: Vectors) -> Minimum | None:
+def stiff_minimum(
+    energy: LoopEnergy, start: Vectors, tension: Vectors, *, roughly: float = 0.0
+) -> Minimum | None:
     """Find the minimum near ``start`` (n,), or None when the steps lead elsewhere.
 
-    ``tension`` (Q,) is a first guess of the wire's, in units of E_f t R; 0 if nothing is known.
+    Parameters
+    ----------
+    tension : array (Q,)
+        A first guess of the wire's, in units of E_f t R; 0 if nothing is known.
+    roughly : float
+        Length of the last step if that is near enough; 0 for as near as rounding allows. Value,
+        gradient and Hessian are then those before that step.
     """
     q, force, before = start, tension, math.inf
     for steps in range(_MOST_STEPS):
@@ -50,6 +58,9 @@ def stiff_minimum(energy: LoopEnergy, start: Vectors, tension: Vectors) -> Minim
         norm = math.sqrt(slope @ slope)
         if length <= _SHORTEST_STEP and (norm <= _SMALL_GRADIENT or length > before / 4):
             found = Minimum(q, value, norm, hessian, steps, steps + 1, True)
+            return found if dpotrf(hessian)[1] == 0 else None
+        if length <= roughly:
+            found = Minimum(q + p, value, norm, hessian, steps + 1, steps + 1, True)
             return found if dpotrf(hessian)[1] == 0 else None
         tangent = energy.basis.along_edge(q)[..., :3]
         change = energy.basis.along_edge(p)[..., :3]

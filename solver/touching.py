@@ -38,10 +38,14 @@ _NEAR = 0.5
 _MARGIN = 0.1
 """How near to a plate a point of the fabric is watched."""
 
+_FAR = 0.3
+"""Humps that much lower than the highest are not looked at."""
+
+_SPACING = float(_SAMPLED[1])
+_CLOSE = 1e-12
 _NEWTON_STEPS = 8
 _FLATTEST = 1e-9
 """Least k; where it is reached, the wire lies along the plate."""
-
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,75 +115,77 @@ class Touches:
 
 
 @dataclass(frozen=True, eq=False)
+class _Points:
+    """Fixed points of the loop: rows (k, n) of one coordinate, and where they are in the disc."""
+
+    rows: Vectors
+    radii: Vectors
+    angles: Vectors
+
+    def touches(self, q: Vectors, side: float, reach: float) -> Touches:
+        """Those that are near to a plate."""
+        excess = side * (self.rows @ q) - reach
+        near = excess > -_MARGIN
+        rows, k = self.rows[near], int(near.sum())
+        return Touches(
+            excess=excess[near],
+            rows=side * rows,
+            slopes=np.zeros_like(rows),
+            bends=np.full(k, np.inf),
+            radii=self.radii[near],
+            angles=self.angles[near],
+            sides=np.full(k, side),
+        )
+
+
+@dataclass(frozen=True, eq=False)
 class _Surroundings:
-    """A basis' shapes at the points that are looked at: sampled wire, and fabric."""
+    """A basis' shapes where they are looked at: all along the wire, at samples of it, in fabric."""
 
     wire: EdgeRows
-    samples: Vectors
-    fabric: Vectors
-    fabric_radii: Vectors
-    fabric_angles: Vectors
+    samples: _Points
+    fabric: _Points
 
 
 @lru_cache(maxsize=64)
 def _surroundings(basis: DiscBasis, component: int) -> _Surroundings:
     wire = edge_rows(basis, component)
+    samples = _Points(wire.at(_SAMPLED)[0], np.ones(_SAMPLES), _SAMPLED)
     radii, angles = (grid.ravel() for grid in np.meshgrid(_RADII, _ANGLES, indexing="ij"))
-    fabric = np.ascontiguousarray(position_map(basis.unknowns, radii, angles)[:, component])
-    samples = wire.at(_SAMPLED)
-    return _Surroundings(wire, samples, fabric, radii, angles)
+    inside = np.ascontiguousarray(position_map(basis.unknowns, radii, angles)[:, component])
+    return _Surroundings(wire, samples, _Points(inside, radii, angles))
 
 
-def _humps(wire: EdgeRows, values: Vectors, q: Vectors, side: float) -> Vectors:
+def _humps(at: _Surroundings, q: Vectors, side: float) -> Vectors:
     """Angles of the highest points of the wire's humps on a quarter that its mirrors repeat.
 
     The highest samples, refined by Newton's steps; at the quarter's ends the slope is 0.
     """
+    values = side * (at.samples.rows @ q)
     mirrored = np.concatenate([values[1:2], values, values[-2:-1]])
-    top = (values >= mirrored[:-2]) & (values >= mirrored[2:])
-    spacing = np.pi / 2 / (_SAMPLES - 1)
-    angles = np.flatnonzero(top) * spacing
-    found = angles
-    cosines, sines = side * (wire.cosines @ q), side * (wire.sines @ q)
-    wave = EdgeRows(cosines[:, None], sines[:, None])
+    top = (values >= mirrored[:-2]) & (values >= mirrored[2:]) & (values > values.max() - _FAR)
+    first = _SAMPLED[top]
+    found, wave = first, at.wire.of(side * q)
     for _ in range(_NEWTON_STEPS):
-        bend = wave.at(found, 2)[:, 0]
-        step = np.where(bend < 0, wave.at(found, 1)[:, 0] / np.minimum(bend, -_FLATTEST), 0.0)
-        found = np.clip(found - step, angles - spacing, angles + spacing)
-        if np.abs(step).max(initial=0.0) < 1e-12:
+        _, slope, bend = (derivative[:, 0] for derivative in wave.at(found))
+        step = np.where(bend < 0, slope / np.minimum(bend, -_FLATTEST), 0.0)
+        found = np.clip(found - step, first - _SPACING, first + _SPACING)
+        if np.abs(step).max() < _CLOSE:
             break
-    return np.unique(np.abs(found))
+    return np.abs(found)
 
 
 def _wire_touches(at: _Surroundings, q: Vectors, side: float, reach: float) -> Touches:
-    angles = _humps(at.wire, side * (at.samples @ q), q, side)
-    rows, slopes = side * at.wire.at(angles), side * at.wire.at(angles, 1)
-    bends = -side * (at.wire.at(angles, 2) @ q)
+    angles = _humps(at, q, side)
+    rows, slopes, bends = at.wire.at(angles)
     return Touches(
-        excess=rows @ q - reach,
-        rows=rows,
-        slopes=slopes,
-        bends=np.maximum(bends, _FLATTEST),
+        excess=side * (rows @ q) - reach,
+        rows=side * rows,
+        slopes=side * slopes,
+        bends=np.maximum(-side * (bends @ q), _FLATTEST),
         radii=np.ones_like(angles),
         angles=angles,
         sides=np.full_like(angles, side),
-    )
-
-
-def _points(
-    rows: Vectors, radii: Vectors, angles: Vectors, q: Vectors, side: float, reach: float
-) -> Touches:
-    """Those of given points of the loop that are near to a plate."""
-    excess = side * (rows @ q) - reach
-    near = excess > -_MARGIN
-    return Touches(
-        excess=excess[near],
-        rows=side * rows[near],
-        slopes=np.zeros_like(rows[near]),
-        bends=np.full(int(near.sum()), np.inf),
-        radii=radii[near],
-        angles=angles[near],
-        sides=np.full(int(near.sum()), side),
     )
 
 
@@ -205,27 +211,24 @@ def plate_touches(
     parts: list[Touches] = []
     for side in (1.0, -1.0) if plates.axis is PlateAxis.HEIGHT else (1.0,):
         if sampled:
-            ones = np.ones(_SAMPLES)
-            parts.append(_points(at.samples, ones, _SAMPLED, q, side, plates.wire_reach))
+            parts.append(at.samples.touches(q, side, plates.wire_reach))
         else:
             parts.append(_wire_touches(at, q, side, plates.wire_reach))
-        fabric = at.fabric, at.fabric_radii, at.fabric_angles
-        parts.append(_points(*fabric, q, side, plates.fabric_reach))
+        parts.append(at.fabric.touches(q, side, plates.fabric_reach))
     return joined(parts)
 
 
 def reach(basis: DiscBasis, component: int, q: Vectors, side: float = 1.0) -> float:
     """Farthest that the wire of a shape with two mirrors gets along ± one axis, in units of R."""
     at = _surroundings(basis, component)
-    humps = _humps(at.wire, side * (at.samples @ q), q, side)
-    return float((side * (at.wire.at(humps) @ q)).max())
+    return float(at.wire.of(side * q).at(_humps(at, q, side))[0].max())
 
 
 def held_points(basis: DiscBasis, pitch: Pitch, q: Vectors) -> Touches:
     """Give the crest on +x, and the valley on +y if it is held too, of a shape q (n,)."""
     held = [(0, 0.0, pitch.pitch / 2)]
     held += [(1, np.pi / 2, pitch.width / 2)] if pitch.width is not None else []
-    rows = np.array([edge_rows(basis, c).at(np.array([angle]))[0] for c, angle, _ in held])
+    rows = np.array([edge_rows(basis, c).at(np.array([angle]))[0][0] for c, angle, _ in held])
     k = len(held)
     return Touches(
         excess=rows @ q - np.array([reach for *_, reach in held]),
