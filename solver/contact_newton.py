@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dgesv, dpotrf
 
+from solver.free_motions import drift
 from solver.loop_energy import LoopEnergy
 from solver.newton import Minimum
 from solver.plates import Contact
@@ -101,16 +102,6 @@ def convex_along(hessian: Vectors, rows: Vectors) -> bool:
     return dpotrf(hessian + stiffest * (rows.T @ rows))[1] == 0
 
 
-def drift(energy: LoopEnergy) -> Vectors:
-    """Matrix (n, n) that holds back the shift along z, which costs nothing where it is an unknown.
-
-    It acts on the steps alone, not on the energy, so that it does not change where they end.
-    """
-    unknowns = energy.basis.unknowns
-    level = [u[0].component == 2 and u[0].function.degree == 0 for u in unknowns]
-    return np.diag(np.array(level, dtype=float))
-
-
 def held_minimum(
     energy: LoopEnergy,
     start: Vectors,
@@ -136,7 +127,7 @@ def held_minimum(
     roughly : float
         Length of the last step if that is near enough; 0 for as near as rounding allows.
     """
-    q, stretched, hold = start, tension, drift(energy)
+    q, stretched, hold = start, tension, drift(energy.basis)
     touches = find(q)
     force = touches.forces_of(before)
     enough = max(_SMALL_GRADIENT, 1e-11 * _stiffness(energy))

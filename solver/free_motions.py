@@ -96,6 +96,17 @@ def _of_length_1(constant: Vectors, linear: Vectors, q: Vectors) -> Vectors:
     return free / np.maximum(np.sqrt(np.sum(free * free, axis=-1, keepdims=True)), 1e-300)
 
 
+@lru_cache(maxsize=128)
+def drift(basis: DiscBasis) -> Vectors:
+    """Matrix (n, n) that holds back the shift along z, which costs nothing where it is an unknown.
+
+    Added to the Hessian it acts on Newton's steps alone, not on the energy, so that it does not
+    change where they end.
+    """
+    level = [u[0].component == 2 and u[0].function.degree == 0 for u in basis.unknowns]
+    return np.diag(np.array(level, dtype=float))
+
+
 def orthonormal(free: Vectors) -> Vectors:
     """Orthonormal basis (m, r) of the span of motions (f, m)."""
     left, singular, _ = np.linalg.svd(free.T, full_matrices=False)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.contact_newton import drift
 from solver.disc_basis import DiscBasis, disc_basis, transfer
 from solver.first_guess import GUESS_DEGREE, saddle_family, scene_weights
+from solver.free_motions import drift
 from solver.loop_energy import LoopEnergy
 from solver.newton import Minimum, minimise
 from solver.plates import Pitch, PlateAxis, Plates
@@ -63,7 +63,7 @@ def pressed(energy: LoopEnergy, hold: Plates | Pitch, start: Vectors) -> Minimum
 
     Springs of the hold are added to the energy; the steps never end on a saddle point.
     """
-    back = drift(energy)
+    back = drift(energy.basis)
 
     def derivatives(q: Vectors) -> tuple[float, Vectors, Vectors]:
         touches = touches_of(energy.basis, hold, q, sampled=True)

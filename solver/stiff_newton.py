@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dgesv, dpotrf
 
+from solver.free_motions import drift
 from solver.loop_energy import LoopEnergy
 from solver.newton import Minimum
 
@@ -49,8 +50,10 @@ def stiff_minimum(
         gradient and Hessian are then those before that step.
     """
     q, force, before = start, tension, math.inf
+    level = None if energy.basis.space == "saddle" else drift(energy.basis)
     for steps in range(_MOST_STEPS):
         value, slope, hessian = energy.derivatives(q, force)
+        hessian = hessian if level is None else hessian + level
         _, p, info = dgesv(hessian, -slope)[1:]
         length = math.sqrt(p @ p)
         if info != 0 or not length <= _LONGEST_STEP:

@@ -206,6 +206,13 @@ def test_between_the_two_the_minimum_is_oblique(axis_ratio, beta):
     assert found.energy < min(saddle.minimum.value for saddle in saddles)
 
 
+def test_at_the_edge_of_the_window_the_oblique_minimum_is_found():
+    """The shift along z is among its unknowns; it must not stand in the way of Newton's steps."""
+    found = solve_loop(LoopScene(0.3, 0.02071, 0.3, axis_ratio=1.5, twist_ratio=0.75))
+    assert found.kind is Kind.OBLIQUE
+    assert 0 < found.lowest_eigenvalue < 2e-3
+
+
 def test_twist_keeps_a_long_ellipse_flat():
     scene = LoopScene(0.3, 0.025, 0.3, axis_ratio=3.0)
     assert solve_loop(scene).buckled
