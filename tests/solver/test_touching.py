@@ -37,9 +37,17 @@ def test_rows_are_those_of_the_curve(component):
         assert rows @ q == pytest.approx(expected, abs=1e-12)
 
 
-@pytest.mark.parametrize("axis", list(PlateAxis))
-def test_highest_points_and_their_derivatives(axis):
-    q, plates, step = _some_shape(), Plates(1.0, axis), 1e-5
+@pytest.mark.parametrize(
+    ("axis", "q", "moves"),
+    [
+        (PlateAxis.LATERAL, _some_shape(), False),
+        (PlateAxis.LATERAL, _disc(((0, 3, 0), -0.06)), True),
+        (PlateAxis.ACROSS, _disc(((1, 3, 0), 0.06)), True),
+        (PlateAxis.HEIGHT, _disc(((2, 2, 0), 0.05), ((2, 4, 0), -0.05)), True),
+    ],
+)
+def test_highest_points_and_their_derivatives(axis, q, moves):
+    plates, step = Plates(1.0, axis), 1e-5
     side = 1.0
     edge = LoopShape(BASIS.unknowns, q).edge(20_000)[:, axis.component]
     assert reach(BASIS, axis.component, q) == pytest.approx(edge.max(), abs=1e-7)
@@ -55,6 +63,7 @@ def test_highest_points_and_their_derivatives(axis):
     force = np.zeros(len(touches.excess))
     force[top] = 1.0
     curvature = direction @ touches.curvature(force) @ direction
+    assert (curvature > 0.1) == moves
     assert (ahead - 2 * at + behind) / step**2 == pytest.approx(curvature, rel=1e-3, abs=1e-5)
 
 
