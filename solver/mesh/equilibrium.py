@@ -8,10 +8,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.scene import ArrayScene
+from solver.mesh.self_contact import SelfContact
 from solver.mesh.triangulation import Mesh
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ContactAccount:
+    """What a solve with contact has to say of it; lengths in units of R.
+
+    Attributes
+    ----------
+    wire_diameter : float
+        That the wires were given.
+    distances : SelfContact
+        How near the shape comes to itself.
+    touching : int
+        Pairs of points, edges and triangles that feel each other.
+    largest_force : float
+        On any vertex, in units of E_f t R.
+    energy_share : float
+        Of the barriers in the energy.
+    """
+
+    wire_diameter: float
+    distances: SelfContact
+    touching: int
+    largest_force: float
+    energy_share: float
 
 
 @dataclass(frozen=True)
@@ -50,6 +76,8 @@ class MeshEquilibrium:
         of those that are wrinkled or slack.
     tension_field : bool
         Whether the fabric was let wrinkle instead of bearing compression.
+    contact : ContactAccount, optional
+        Where the shape was kept from passing through itself.
     """
 
     scene: LoopScene | ArrayScene
@@ -67,6 +95,7 @@ class MeshEquilibrium:
     smallest_stress: float
     compressed_fraction: float
     tension_field: bool = False
+    contact: ContactAccount | None = None
 
     @property
     def energy(self) -> float:
