@@ -43,6 +43,7 @@ def collision_library() -> Any:
         raise SceneError(f"contact needs the library ipctk: {REMEDY}")
     library: Any = importlib.import_module("ipctk")
     library.set_num_threads(1)
+    library.set_logger_level(library.LoggerLevel.off)
     return library
 
 
@@ -140,9 +141,7 @@ class Barrier:
         """Hessian (3n, 3n), its convex part pair by pair on demand."""
         methods = collision_library().PSDProjectionMethod
         method = methods.CLAMP if curvature is Curvature.CONVEX else methods.NONE
-        own = coo_array(
-            self._potential.hessian(found.pairs, self._body, found.positions, method)
-        )
+        own = coo_array(self._potential.hessian(found.pairs, self._body, found.positions, method))
         row, column = (self._unknowns[c] for c in own.coords)
         size = 3 * len(self.points)
         return coo_array((own.data, (row, column)), shape=(size, size))

@@ -22,7 +22,7 @@ from solver.mesh.newton_sparse import minimise_sparse
 from solver.mesh.problem import MeshProblem, array_problem, loop_problem
 from solver.mesh.scene import ArrayScene
 from solver.mesh.search import SearchLimits
-from solver.mesh.self_contact import self_contact
+from solver.mesh.self_contact import SelfContact, self_contact
 from solver.mesh.solve import solve_array, solve_loop_mesh
 from solver.mesh.thickness import thickness_barriers
 from solver.round_wire import wire_diameter
@@ -95,13 +95,12 @@ def _raised(
 
 
 def _contact_account(
-    energy: ContactEnergy, found: MeshEquilibrium, diameter: float
+    energy: ContactEnergy, found: MeshEquilibrium, before: SelfContact | None
 ) -> ContactAccount:
-    near = self_contact(found.mesh, found.positions)
     forces = np.linalg.norm(energy.forces(found.positions), axis=1)
     return ContactAccount(
-        wire_diameter=diameter,
-        distances=near,
+        wire_diameter=found.wire_diameter,
+        before=before,
         touching=energy.touching(found.positions),
         largest_force=float(forces.max()),
         energy_share=found.energy_terms[CONTACT_TERM] / found.energy,
@@ -116,8 +115,14 @@ def solve_in_contact(
     backend: str | None = None,
     most_steps: int = 500,
     allow_unreliable: bool = False,
+    before: SelfContact | None = None,
 ) -> MeshEquilibrium:
     """Find a minimum whose wires and fabric keep apart; see `solver.mesh.solve` for the options.
+
+    Parameters
+    ----------
+    before : SelfContact, optional
+        How near the shape comes to itself without contact, for the account.
 
     Raises
     ------
@@ -145,5 +150,5 @@ def solve_in_contact(
         found,
         steps=sum(s.minimum.steps for s in solved),
         factorizations=sum(s.minimum.factorizations for s in solved),
-        contact=_contact_account(energy, found, diameter),
+        contact=_contact_account(energy, found, before),
     )

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.scene import ArrayScene
-from solver.mesh.self_contact import SelfContact
+from solver.mesh.self_contact import LOOKED, SelfContact, self_contact
 from solver.mesh.triangulation import Mesh
+from solver.round_wire import wire_diameter
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
@@ -23,8 +25,8 @@ class ContactAccount:
     ----------
     wire_diameter : float
         That the wires were given.
-    distances : SelfContact
-        How near the shape comes to itself.
+    before : SelfContact, optional
+        How near the shape without contact came to itself, where that was looked at.
     touching : int
         Pairs of points, edges and triangles that feel each other.
     largest_force : float
@@ -34,7 +36,7 @@ class ContactAccount:
     """
 
     wire_diameter: float
-    distances: SelfContact
+    before: SelfContact | None
     touching: int
     largest_force: float
     energy_share: float
@@ -96,6 +98,24 @@ class MeshEquilibrium:
     compressed_fraction: float
     tension_field: bool = False
     contact: ContactAccount | None = None
+
+    @property
+    def wire_diameter(self) -> float:
+        """Diameter of the wires, units of R; see `solver.round_wire`."""
+        scene = self.scene
+        return wire_diameter(scene.loop if isinstance(scene, ArrayScene) else scene)
+
+    @cached_property
+    def distances(self) -> SelfContact:
+        """How near the shape comes to itself."""
+        return self_contact(self.mesh, self.positions, max(LOOKED, 2 * self.wire_diameter))
+
+    @property
+    def meets_itself(self) -> bool:
+        """Whether parts cross, or lie nearer than the thickness of a wire allows."""
+        near, thick = self.distances, self.wire_diameter
+        too_near = near.wire_to_wire < thick or near.wire_to_fabric < thick / 2
+        return near.crossings > 0 or too_near
 
     @property
     def energy(self) -> float:

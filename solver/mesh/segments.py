@@ -64,8 +64,17 @@ def pierces(start: Vectors, end: Vectors, triangles: Vectors) -> Flags:
     through = (one * other < 0) & (np.minimum(np.abs(one), np.abs(other)) > _INSIDE * size)
     part = np.where(through, one / np.where(through, one - other, 1.0), 0.0)
     u, v = u_0 + part * (u_1 - u_0), v_0 + part * (v_1 - v_0)
-    inside = (u > _INSIDE) & (v > _INSIDE) & (u + v < 1 - _INSIDE)
-    return through & inside
+    return through & (u > _INSIDE) & (v > _INSIDE) & (u + v < 1 - _INSIDE)
+
+
+def on_both_sides(start: Vectors, end: Vectors, triangles: Vectors) -> Flags:
+    """Whether segments (m, 3) have their ends on different sides of triangles' planes.
+
+    A quick test that leaves few pairs to `pierces`.
+    """
+    corner = triangles[:, 0]
+    normal = np.cross(triangles[:, 1] - corner, triangles[:, 2] - corner)
+    return _dot(start - corner, normal) * _dot(end - corner, normal) < 0
 
 
 def segment_triangle_distance(start: Vectors, end: Vectors, triangles: Vectors) -> Vectors:

@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from solver.mesh.segments import pierces, segment_distance, segment_triangle_distance
+from solver.mesh.segments import on_both_sides, pierces, segment_distance, segment_triangle_distance
 from solver.mesh.triangulation import Mesh, embedded
 
 Vectors = NDArray[np.float64]
 Indices = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
 NEIGHBOURS = 0.3
 """Parts that are nearer than this when flat, over the smallest half-width of a loop, are no
@@ -72,14 +73,17 @@ def _parts(vertices: Indices, mesh: Mesh, positions: Vectors) -> _Parts:
 
 
 def _pairs(one: _Parts, other: _Parts, within: float) -> tuple[Indices, Indices]:
-    """Pairs that may be within a distance of each other and share no vertex."""
+    """Pairs that may be within a distance of each other."""
     reach = within + one.radius + other.radius
     near = cKDTree(one.middles).sparse_distance_matrix(
-        cKDTree(other.middles), reach, output_type="coo_matrix"
+        cKDTree(other.middles), reach, output_type="ndarray"
     )
-    i, j = near.row, near.col
-    shared = (one.vertices[i][:, :, None] == other.vertices[j][:, None, :]).any(axis=(1, 2))
-    return i[~shared], j[~shared]
+    return near["i"], near["j"]
+
+
+def _apart(one: _Parts, i: Indices, other: _Parts, j: Indices) -> Flags:
+    """Whether pairs share no vertex."""
+    return (one.vertices[i][:, :, None] != other.vertices[j][:, None, :]).all(axis=(1, 2))
 
 
 def mesh_edges(triangles: Indices) -> Indices:
@@ -116,8 +120,12 @@ def crossings(mesh: Mesh, positions: Vectors) -> int:
     edges = _parts(mesh_edges(mesh.triangles), mesh, positions)
     triangles = _parts(mesh.triangles, mesh, positions)
     i, j = _pairs(edges, triangles, 0.0)
-    through = pierces(edges.now[i, 0], edges.now[i, 1], triangles.now[j])
-    return int(np.sum(through))
+    start, end = edges.now[:, 0], edges.now[:, 1]
+    through = on_both_sides(start[i], end[i], triangles.now[j])
+    i, j = i[through], j[through]
+    apart = _apart(edges, i, triangles, j)
+    i, j = i[apart], j[apart]
+    return int(np.sum(pierces(start[i], end[i], triangles.now[j])))
 
 
 def self_contact(mesh: Mesh, positions: Vectors, within: float = LOOKED) -> SelfContact:
