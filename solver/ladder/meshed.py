@@ -26,6 +26,8 @@ FINEST_SLACK = 3
 MOST_IN_CONTACT = 1700
 """Triangles of the finest mesh that is solved with contact, of which a step takes many times
 longer: at the least two meshes are, to tell the error."""
+LARGEST_IN_CONTACT = 6000
+"""Triangles of a mesh on which contact is not even begun."""
 
 _SHARES_OF_ERROR = 3.0
 """A second-order error is a third of its change from the mesh with edges twice as long."""
@@ -47,7 +49,8 @@ class _InContact:
     def solved(self, found: MeshEquilibrium, refinement: int, *, lenient: bool) -> MeshEquilibrium:
         """Give the shape as it is, or solved with contact where that is needed and can be had."""
         needed = self._last is not None or found.meets_itself
-        if not (needed and contact_available()):
+        small = len(found.mesh.triangles) <= LARGEST_IN_CONTACT
+        if not (needed and small and contact_available()):
             return found
         solved = solve_in_contact(
             self._scene,
@@ -106,9 +109,11 @@ def _refined(
             slack = found.smallest_stress < 0 < loop.strain
             field = knows_field and (slack or found.status != "converged")
         if field:
-            found = solve(refinement, field=True, lenient=lenient)
+            # and so may one be that meets itself: contact has its turn
+            found = solve(refinement, field=True, lenient=True)
         if found is not None:
             found = contact.solved(found, refinement, lenient=lenient)
+            _check_converged(found, lenient=lenient)
         first_of_array = refinement == 1
         if found is not None and not first_of_array and _mesh_error(found) <= tolerance:
             break
@@ -119,6 +124,12 @@ def _refined(
     if found is None:
         raise NotConvergedError("no mesh to solve on")
     return found
+
+
+def _check_converged(found: MeshEquilibrium, *, lenient: bool) -> None:
+    # what meets itself is refused for that, with what would mend it
+    if not (lenient or found.status == "converged" or found.meets_itself):
+        raise NotConvergedError(found.status)
 
 
 def _finest_in_contact(found: MeshEquilibrium) -> bool:
@@ -137,12 +148,18 @@ def _mesh_error(found: MeshEquilibrium) -> float:
     return change / found.height if found.height > 1e-6 else change
 
 
+def _contact_remedy() -> str:
+    if not contact_available():
+        return f"to add contact: {REMEDY}"
+    return f"contact is solved on up to {LARGEST_IN_CONTACT} triangles: solve fewer loops"
+
+
 def _mesh_answer(found: MeshEquilibrium, reason: str, tolerance: float, *, lenient: bool) -> Answer:
     omitted = mesh_omissions(found)
     error = _mesh_error(found)
     faults = [f"{o.term} is left out, and the shape is wrong without" for o in omitted if o.fatal]
     if any(o.fatal and o.term == CONTACT for o in omitted):
-        faults.append(f"to add contact: {REMEDY}")
+        faults.append(_contact_remedy())
     if found.contact is not None and found.distances.crossings:
         faults.append("the shape still passes through itself; raise beta or lower strain")
     if error > tolerance:

@@ -10,7 +10,7 @@ Flags = NDArray[np.bool_]
 
 _TINY = 1e-300
 _INSIDE = 1e-9
-"""Part of a length by which a point must lie inside to count, so that touching is no crossing."""
+"""Part of a length that is taken for none: a segment that ends in a plane does not cross it."""
 
 
 def _dot(one: Vectors, other: Vectors) -> Vectors:
@@ -57,14 +57,15 @@ def height_over_triangle(points: Vectors, triangles: Vectors) -> Vectors:
 
 
 def pierces(start: Vectors, end: Vectors, triangles: Vectors) -> Flags:
-    """Whether segments (m, 3) pass through the inside of triangles (m, 3, 3)."""
+    """Whether segments (m, 3) pass through triangles (m, 3, 3), their sides included."""
     u_0, v_0, one = _barycentric(start, triangles)
     u_1, v_1, other = _barycentric(end, triangles)
     size = np.linalg.norm(end - start, axis=1)
     through = (one * other < 0) & (np.minimum(np.abs(one), np.abs(other)) > _INSIDE * size)
     part = np.where(through, one / np.where(through, one - other, 1.0), 0.0)
     u, v = u_0 + part * (u_1 - u_0), v_0 + part * (v_1 - v_0)
-    return through & (u > _INSIDE) & (v > _INSIDE) & (u + v < 1 - _INSIDE)
+    # shapes with mirror planes cross themselves just on the sides of triangles
+    return through & (u > -_INSIDE) & (v > -_INSIDE) & (u + v < 1 + _INSIDE)
 
 
 def on_both_sides(start: Vectors, end: Vectors, triangles: Vectors) -> Flags:
