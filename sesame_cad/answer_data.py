@@ -33,6 +33,7 @@ def answer_data(answer: Answer, seconds: float) -> Data:
         "height_over_perimeter": answer.height_over_perimeter,
         "pitch_mm": None,
         "energy_mJ": None,
+        "contact": None,
         **details,
         "seconds": round(seconds, 6),
         "omitted_terms": [

@@ -7,6 +7,7 @@ prestrain from there, with barriers and with steps that pass through nothing.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -22,7 +23,7 @@ from solver.mesh.newton_sparse import minimise_sparse
 from solver.mesh.problem import MeshProblem, array_problem, loop_problem
 from solver.mesh.scene import ArrayScene
 from solver.mesh.search import SearchLimits
-from solver.mesh.self_contact import SelfContact, self_contact
+from solver.mesh.self_contact import SelfContact
 from solver.mesh.solve import solve_array, solve_loop_mesh
 from solver.mesh.thickness import thickness_barriers
 from solver.round_wire import wire_diameter
@@ -32,7 +33,7 @@ Vectors = NDArray[np.float64]
 Scene = LoopScene | ArrayScene
 
 _FREE_PARTS = (0.5, 0.25, 0.1, 0.03, 0.01, 0.0)
-"""Of the prestrain: where to begin, the largest that is free."""
+"""Of the prestrain: where to begin, the largest that will do."""
 _RAISES = 4
 """Steps from there to the whole prestrain."""
 _ON_THE_WAY = SearchLimits(decrease=1e-4, steps=100)
@@ -70,12 +71,12 @@ def _energy(problem: MeshProblem, diameter: float, strain: float) -> ContactEner
 def _free_shape(
     scene: Scene, energy: ContactEnergy, refinement: int, *, field: bool
 ) -> tuple[float, Vectors]:
-    """Give a prestrain at which nothing touches, and the positions (n, 3) there."""
+    """Give a prestrain at which the shape keeps its thickness, and the positions (n, 3) there."""
     strain = _loop_of(scene).strain
     for part in _FREE_PARTS:
         found = _solved_freely(_with_strain(scene, part * strain), refinement, field=field)
-        touching = energy.touching(found.positions)
-        if touching == 0 and self_contact(found.mesh, found.positions).crossings == 0:
+        clear = math.isfinite(energy.value(found.positions))
+        if clear and found.distances.crossings == 0:
             return part * strain, found.positions
     raise NotConvergedError(
         "contact: the shape meets itself at every prestrain; take a thinner wire or larger loops"

@@ -25,6 +25,17 @@ def _longest(edges: Indices, mesh: Mesh) -> float:
     return float(np.linalg.norm(np.diff(mesh.points[edges], axis=1), axis=2).max())
 
 
+def _thin_measure(mesh: Mesh, wire_diameter: float, strain: float) -> float:
+    """Diameter to which the thin barrier is measured: the wire's, or what fine triangles allow.
+
+    Neighbours that share no vertex are as far apart as the altitude of a triangle between them,
+    and released fabric brings them nearer.
+    """
+    sides = np.diff(mesh.points[mesh.triangles[:, [0, 1, 2, 0]]], axis=1)
+    altitudes = 2 * mesh.areas / np.linalg.norm(sides, axis=2).max(axis=1)
+    return min(wire_diameter, float(altitudes.min()) / (1 + strain))
+
+
 def thickness_barriers(mesh: Mesh, wire_diameter: float, strain: float) -> tuple[Barrier, ...]:
     """Barriers for wires so thick, in units of R, on fabric stretched by ``strain``.
 
@@ -35,7 +46,10 @@ def thickness_barriers(mesh: Mesh, wire_diameter: float, strain: float) -> tuple
     wires = np.concatenate([wire.edges for wire in mesh.wires])
     sides = mesh_edges(mesh.triangles)
     none = np.empty((0, 3), dtype=np.int64)
-    half, thin, reach = wire_diameter / 2, _THIN * wire_diameter, REACH * wire_diameter
+    half, reach = wire_diameter / 2, REACH * wire_diameter
+    thin, thin_reach = (
+        part * _thin_measure(mesh, wire_diameter, strain) for part in (_THIN, REACH)
+    )
     # fabric released from the hoop brings parts nearer by 1 + ε; twice, to be clear of the barrier
     released = 2 * (1 + strain)
     return (
@@ -64,8 +78,8 @@ def thickness_barriers(mesh: Mesh, wire_diameter: float, strain: float) -> tuple
             sides,
             mesh.triangles,
             gap=thin,
-            reach=reach,
+            reach=thin_reach,
             force=_THIN_FORCE,
-            near=released * (thin + reach),
+            near=released * (thin + thin_reach),
         ),
     )

@@ -8,7 +8,6 @@ from solver.mesh import barrier as module
 from solver.mesh.barrier import Barrier
 from solver.mesh.elements import Curvature
 from solver.mesh.triangulation import embedded
-from tests.solver.mesh.shapes import rolled_disc
 
 NONE = np.empty((0, 3), dtype=np.int64)
 GAP, REACH = 0.02, 0.002
@@ -18,30 +17,32 @@ def _wires(mesh):
     return Barrier(mesh.points, mesh.wires[0].edges, NONE, GAP, REACH, force=0.1, near=0.2)
 
 
-def _energy(gap):
+def _energy(rolled_disc, gap):
     mesh, positions = rolled_disc(gap)
     barrier = _wires(mesh)
     return barrier.energy(barrier.collisions(positions))
 
 
-def test_it_sets_in_at_its_reach_and_has_no_bound_at_its_gap():
-    assert _energy(GAP + REACH + 1e-9) == 0
-    assert 0 < _energy(GAP + 0.9 * REACH) < _energy(GAP + 0.1 * REACH)
-    assert _energy(GAP - 1e-9) == np.inf
+def test_it_sets_in_at_its_reach_and_has_no_bound_at_its_gap(rolled_disc):
+    assert _energy(rolled_disc, GAP + REACH + 1e-9) == 0
+    assert 0 < _energy(rolled_disc, GAP + 0.9 * REACH) < _energy(rolled_disc, GAP + 0.1 * REACH)
+    assert _energy(rolled_disc, GAP - 1e-9) == np.inf
 
 
-def test_flat_neighbours_do_not_feel_each_other():
+def test_flat_neighbours_do_not_feel_each_other(rolled_disc):
     mesh, _ = rolled_disc(0.1, refinement=4)  # edges as long as the wire is thick
     barrier = _wires(mesh)
     assert barrier.energy(barrier.collisions(embedded(mesh.points))) == 0
 
 
-def test_force_in_the_middle_of_the_reach_is_of_the_order_that_was_asked():
-    slope = (_energy(GAP + 0.51 * REACH) - _energy(GAP + 0.49 * REACH)) / (0.02 * REACH)
+def test_force_in_the_middle_of_the_reach_is_of_the_order_that_was_asked(rolled_disc):
+    slope = (
+        _energy(rolled_disc, GAP + 0.51 * REACH) - _energy(rolled_disc, GAP + 0.49 * REACH)
+    ) / (0.02 * REACH)
     assert 0.03 < -slope < 1
 
 
-def test_derivatives():
+def test_derivatives(rolled_disc):
     mesh, positions = rolled_disc(GAP + 0.5 * REACH)
     barrier = _wires(mesh)
     way = np.random.default_rng(0).normal(size=positions.shape)
@@ -58,7 +59,7 @@ def test_derivatives():
     assert np.linalg.eigvalsh(convex)[0] > -1e-9
 
 
-def test_a_step_ends_before_rims_cross():
+def test_a_step_ends_before_rims_cross(rolled_disc):
     mesh, positions = rolled_disc(0.1)
     barrier = _wires(mesh)
     crossed = positions.copy()

@@ -9,21 +9,20 @@ from solver.mesh.krylov import symmetric_product
 from solver.mesh.problem import loop_problem
 from solver.mesh.thickness import thickness_barriers
 from solver.scene import LoopScene
-from tests.solver.mesh.shapes import rolled_disc
 
 SCENE = LoopScene(0.3, 0.0145, 0.3)
 TOUCHING = 0.021
 
 
-def _energy(gap):
+def _energy(rolled_disc, gap):
     mesh, positions = rolled_disc(gap)
     free = loop_problem(SCENE, 2).energy(2)
     return ContactEnergy(free, thickness_barriers(mesh, 0.02, SCENE.strain)), positions
 
 
 @pytest.mark.parametrize("curvature", [Curvature.TRUE, Curvature.STEADY])
-def test_derivatives_where_rims_touch(curvature):
-    energy, positions = _energy(TOUCHING)
+def test_derivatives_where_rims_touch(curvature, rolled_disc):
+    energy, positions = _energy(rolled_disc, TOUCHING)
     value, gradient, entries = energy.derivatives(positions, curvature)
     assert energy.touching(positions) > 0
     assert value == pytest.approx(sum(energy.terms(positions).values()), rel=1e-12)
@@ -41,11 +40,11 @@ def _energy_gradient(energy, positions):
     return energy.derivatives(positions)[1]
 
 
-def test_the_pattern_widens_only_where_something_touches():
-    apart, positions = _energy(0.05)
+def test_the_pattern_widens_only_where_something_touches(rolled_disc):
+    apart, positions = _energy(rolled_disc, 0.05)
     apart.derivatives(positions)
     assert apart.pattern is apart.free.pattern
-    touching, positions = _energy(TOUCHING)
+    touching, positions = _energy(rolled_disc, TOUCHING)
     touching.derivatives(positions)
     wide = touching.pattern
     assert len(wide.rows) > len(touching.free.pattern.rows)
@@ -53,8 +52,8 @@ def test_the_pattern_widens_only_where_something_touches():
     assert touching.pattern is wide
 
 
-def test_factors_follow_the_pattern():
-    energy, positions = _energy(TOUCHING)
+def test_factors_follow_the_pattern(rolled_disc):
+    energy, positions = _energy(rolled_disc, TOUCHING)
     factoriser = ContactFactoriser(energy)
     entries = energy.derivatives(positions, Curvature.CONVEX)[2]
     entries[energy.pattern.diagonal] += 1.0
@@ -63,8 +62,8 @@ def test_factors_follow_the_pattern():
     assert symmetric_product(energy.pattern, entries)(solved) == pytest.approx(right, abs=1e-6)
 
 
-def test_a_shape_beyond_a_crossing_is_at_infinity():
-    energy, positions = _energy(0.05)
+def test_a_shape_beyond_a_crossing_is_at_infinity(rolled_disc):
+    energy, positions = _energy(rolled_disc, 0.05)
     energy.derivatives(positions)
     assert np.isfinite(energy.value(1.01 * positions))
     mirrored = positions * [-1.0, 1.0, 1.0]

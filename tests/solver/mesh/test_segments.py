@@ -40,7 +40,8 @@ def test_parallel_segments():
     x = np.array([1.0, 0, 0])
     start = np.zeros((3, 3))
     other = np.array([[0.5, 0, 0.2], [1.5, 0, 0], [-3.0, 0.3, 0]])
-    found = segment_distance(start, start + x, other, other + [[1, 0, 0], [1, 0, 0], [2, 0, 0]])
+    lengths = np.array([[1.0], [1.0], [2.0]])
+    found = segment_distance(start, start + x, other, other + lengths * x)
     assert found == pytest.approx([0.2, 0.5, np.hypot(1, 0.3)])
 
 
