@@ -9,6 +9,7 @@ if TYPE_CHECKING:  # the scaling rung must not load what the others need
     from solver.equilibrium import Equilibrium
     from solver.ladder.answer import Answer
     from solver.mesh.equilibrium import MeshEquilibrium
+    from solver.mesh.self_contact import SelfContact
 
 Data = dict[str, Any]
 
@@ -32,6 +33,7 @@ def answer_data(answer: Answer, seconds: float) -> Data:
         "height_over_perimeter": answer.height_over_perimeter,
         "pitch_mm": None,
         "energy_mJ": None,
+        "contact": None,
         **details,
         "seconds": round(seconds, 6),
         "omitted_terms": [
@@ -84,7 +86,35 @@ def _mesh_data(found: MeshEquilibrium) -> Data:
         "loop_heights_over_radius": [float(height) for height in found.loop_heights],
         "triangles": len(found.mesh.triangles),
         "compressed_fraction": found.compressed_fraction,
+        "contact": _contact_data(found),
         **solve_account(found),
+    }
+
+
+def _contact_data(found: MeshEquilibrium) -> Data | None:
+    """What contact did to a shape; null where it was not needed. Lengths in units of R."""
+    contact = found.contact
+    if contact is None:
+        return None
+    return {
+        "wire_diameter_over_radius": contact.wire_diameter,
+        "before": _distances(contact.before),
+        "after": _distances(found.distances),
+        "touching_pairs": contact.touching,
+        "largest_force": contact.largest_force,
+        "energy_share": contact.energy_share,
+    }
+
+
+def _distances(near: SelfContact | None) -> Data | None:
+    """Null for a distance that is larger than was looked."""
+    if near is None:
+        return None
+    wires, fabric = near.wire_to_wire, near.wire_to_fabric
+    return {
+        "wire_to_wire": wires if math.isfinite(wires) else None,
+        "wire_to_fabric": fabric if math.isfinite(fabric) else None,
+        "crossings": near.crossings,
     }
 
 

@@ -9,6 +9,7 @@ from solver.disc_basis import DiscBasis, disc_basis
 from solver.loop_energy import LoopEnergy, edge_speed, scene_membrane
 from solver.membrane import Membrane
 from solver.omitted import OmittedTerm
+from solver.round_wire import wire_diameter
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 from solver.shape import LoopShape, from_expansion
 from solver.symmetry import ALIGNED
@@ -17,12 +18,24 @@ from solver.twist import flat_wire_twist
 Vectors = NDArray[np.float64]
 
 CONTACT = "contact across the loop"
+CLOSENESS = (
+    "wire diameter / smallest distance of wires, or half of it / that of wire and fabric, or the "
+    "number of crossings"
+)
 TWIST = "twist of the wire"
 SLACK = "slack fabric (tension field)"
 EDGE_POINTS = 256
 WRITHE_POINTS = 48
 LARGEST_WIRE_STRAIN = 0.01
 """Beyond it the wire is no longer stiff against stretch, as the model takes it to be."""
+
+_FABRIC_GRID = np.linspace(0, 0.95, 20), np.linspace(0, 2 * np.pi, 96, endpoint=False)
+"""Radii and angles at which fabric is compared with the wire."""
+
+_FABRIC_NEAR = 0.3
+"""Over the smaller half-width of the flat loop."""
+
+_NEAR_CRESTS = 0.3
 
 _SMALLEST_TWIST = 1e-4
 """Share of the energy from which twist that was left out is told of."""
@@ -85,6 +98,38 @@ def smallest_wire_gap(shape: LoopShape) -> float:
     apart = np.arange(EDGE_POINTS // 4, EDGE_POINTS // 2 + 1)
     other = edge[(np.arange(EDGE_POINTS)[:, None] + apart) % EDGE_POINTS]
     return float(np.linalg.norm(edge[:, None] - other, axis=2).min())
+
+
+def smallest_fabric_gap(scene: LoopScene, shape: LoopShape) -> float:
+    """Smallest distance of the wire's centreline and the fabric, in units of R, by sampling.
+
+    Fabric that lies near a point of the wire when flat is left out.
+    """
+    radius, angle = np.meshgrid(*_FABRIC_GRID)
+    edge_angle = np.arange(EDGE_POINTS) * (2 * np.pi / EDGE_POINTS)
+    flat, flat_edge = (
+        np.stack([r * np.cos(t), r * np.sin(t)], axis=-1).reshape(-1, 2) * scene.semi_axes
+        for r, t in ((radius, angle), (np.ones(EDGE_POINTS), edge_angle))
+    )
+    fabric = shape.position(radius.ravel(), angle.ravel())
+    apart = np.linalg.norm(flat[:, None] - flat_edge, axis=2)
+    now = np.linalg.norm(fabric[:, None] - shape.edge(EDGE_POINTS), axis=2)
+    return float(now[apart > _FABRIC_NEAR * min(scene.semi_axes)].min())
+
+
+def _contact(scene: LoopScene, shape: LoopShape) -> OmittedTerm:
+    """Compare distances across the loop with the thickness of its wire."""
+    thick, gap = wire_diameter(scene), smallest_wire_gap(shape)
+    # fabric hangs between the crests: only where they are near can it come near the wire
+    if 0 < gap < _NEAR_CRESTS:
+        gap = min(gap, 2 * smallest_fabric_gap(scene, shape))
+    return OmittedTerm(
+        CONTACT,
+        CLOSENESS,
+        thick / gap if gap > 0 else 1.0,
+        matters=gap < 2 * thick,
+        fatal=gap <= thick,
+    )
 
 
 def writhe(points: Vectors) -> float:
@@ -152,7 +197,6 @@ def looked_back(
     ``stress`` is the fabric's smallest principal stress, ``energy`` the loop's.
     """
     shape = LoopShape(basis.unknowns, q)
-    overlap = max(0.0, -shape.width)
     strain = largest_wire_strain(scene, basis, q)
     wriggle = own_curvature_excess(scene, basis, q)
     return (
@@ -162,13 +206,7 @@ def looked_back(
             max(0.0, -stress),
             matters=stress < 0 < scene.strain,
         ),
-        OmittedTerm(
-            CONTACT,
-            "overlap of the crests / R",
-            overlap,
-            matters=shape.width <= 0,
-            fatal=shape.width <= 0,
-        ),
+        _contact(scene, shape),
         *_twist_left_out(scene, basis, q, energy),
         OmittedTerm(
             "wire's resistance to twist",

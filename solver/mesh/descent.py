@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.factorization import Factoriser, factoriser
-from solver.mesh.mesh_energy import MeshEnergy
+from solver.mesh.mesh_energy import Energy
 from solver.mesh.newton_sparse import minimise_sparse
 from solver.mesh.problem import MeshProblem
 from solver.mesh.search import SearchLimits, SparseMinimum
@@ -31,7 +31,7 @@ _SMALLEST_GRADIENT = 1e-8
 class Solved:
     """The minimum on one mesh, and what it was found with."""
 
-    energy: MeshEnergy
+    energy: Energy
     factoriser: Factoriser
     minimum: SparseMinimum
 
@@ -60,14 +60,20 @@ def roughly_solved(
     return solved_on(problem.softened(_SOFT_WIRE), level, start, backend, limits)
 
 
+def gradient_limit(problem: MeshProblem) -> float:
+    """Largest component of the gradient at what counts as a minimum.
+
+    A smaller one could not be told from the rounding of the wires' stiff terms.
+    """
+    stiffest = max(max(100 * w.beta, w.axial_stiffness) for w in problem.wires)
+    return max(_SMALLEST_GRADIENT, 1e-11 * stiffest)
+
+
 def descend(
     problem: MeshProblem, first: int, start: Vectors, backend: str | None, most_steps: int
 ) -> list[Solved]:
     """Minimise on one mesh after the other, from the one numbered ``first`` on."""
-    stiffest = max(max(100 * w.beta, w.axial_stiffness) for w in problem.wires)
-    # a smaller gradient could not be told from the rounding of the wires' stiff terms
-    gradient = max(_SMALLEST_GRADIENT, 1e-11 * stiffest)
-    limits = SearchLimits(gradient=gradient, steps=most_steps)
+    limits = SearchLimits(gradient=gradient_limit(problem), steps=most_steps)
     meshes = problem.meshes
     found: list[Solved] = []
     for k in range(first, len(meshes)):

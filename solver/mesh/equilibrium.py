@@ -3,15 +3,43 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.scene import ArrayScene
+from solver.mesh.self_contact import LOOKED, SelfContact, self_contact
 from solver.mesh.triangulation import Mesh
+from solver.round_wire import wire_diameter
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ContactAccount:
+    """What a solve with contact has to say of it; lengths in units of R.
+
+    Attributes
+    ----------
+    wire_diameter : float
+        That the wires were given.
+    before : SelfContact, optional
+        How near the shape without contact came to itself, where that was looked at.
+    touching : int
+        Pairs of points, edges and triangles that feel each other.
+    largest_force : float
+        On any vertex, in units of E_f t R.
+    energy_share : float
+        Of the barriers in the energy.
+    """
+
+    wire_diameter: float
+    before: SelfContact | None
+    touching: int
+    largest_force: float
+    energy_share: float
 
 
 @dataclass(frozen=True)
@@ -50,6 +78,8 @@ class MeshEquilibrium:
         of those that are wrinkled or slack.
     tension_field : bool
         Whether the fabric was let wrinkle instead of bearing compression.
+    contact : ContactAccount, optional
+        Where the shape was kept from passing through itself.
     """
 
     scene: LoopScene | ArrayScene
@@ -67,6 +97,25 @@ class MeshEquilibrium:
     smallest_stress: float
     compressed_fraction: float
     tension_field: bool = False
+    contact: ContactAccount | None = None
+
+    @property
+    def wire_diameter(self) -> float:
+        """Diameter of the wires, units of R; see `solver.round_wire`."""
+        scene = self.scene
+        return wire_diameter(scene.loop if isinstance(scene, ArrayScene) else scene)
+
+    @cached_property
+    def distances(self) -> SelfContact:
+        """How near the shape comes to itself."""
+        return self_contact(self.mesh, self.positions, max(LOOKED, 2 * self.wire_diameter))
+
+    @property
+    def meets_itself(self) -> bool:
+        """Whether parts cross, or lie nearer than the thickness of a wire allows."""
+        near, thick = self.distances, self.wire_diameter
+        too_near = near.wire_to_wire < thick or near.wire_to_fabric < thick / 2
+        return near.crossings > 0 or too_near
 
     @property
     def energy(self) -> float:

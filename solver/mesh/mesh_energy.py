@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,29 @@ from solver.mesh.assembly import FamilyAssembly, LowerPattern, block_pattern, fa
 from solver.mesh.elements import Curvature, Elements
 
 Vectors = NDArray[np.float64]
+
+
+class Energy(Protocol):
+    """Energy of n vertices, units of E_f t R², as a minimisation asks for it."""
+
+    @property
+    def pattern(self) -> LowerPattern:
+        """Of the Hessian that was given last."""
+        ...
+
+    def terms(self, positions: Vectors) -> dict[str, float]:
+        """Energy by term at positions (n, 3)."""
+        ...
+
+    def value(self, positions: Vectors) -> float:
+        """Energy at positions (n, 3); infinite where they must not go."""
+        ...
+
+    def derivatives(
+        self, positions: Vectors, curvature: Curvature = Curvature.TRUE
+    ) -> tuple[float, Vectors, Vectors]:
+        """Energy, gradient (n, 3) and the entries (nnz,) of the Hessian's lower triangle."""
+        ...
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from solver.mesh.elements import Curvature
 from solver.mesh.factorization import Factored, Factoriser
 from solver.mesh.krylov import QuadraticModel, Step, symmetric_product, trust_region_step
-from solver.mesh.mesh_energy import MeshEnergy
+from solver.mesh.mesh_energy import Energy
 from solver.mesh.search import SearchLimits, SparseMinimum
 
 Vectors = NDArray[np.float64]
@@ -59,7 +59,7 @@ class _State:
 
 @dataclass(frozen=True)
 class _Search:
-    energy: MeshEnergy
+    energy: Energy
     mass: Vectors
     factoriser: Factoriser
     limits: SearchLimits
@@ -112,7 +112,7 @@ def _noise(value: float) -> float:
 
 
 def _lengthened(
-    energy: MeshEnergy, positions: Vectors, move: Vectors, value: float
+    energy: Energy, positions: Vectors, move: Vectors, value: float
 ) -> tuple[float, float]:
     """Double a step that went well for as long as the energy falls; its factor and the energy.
 
@@ -214,7 +214,7 @@ def _ended(search: _Search, state: _State, factored: Factored, *, converged: boo
 
 
 def minimise_sparse(
-    energy: MeshEnergy,
+    energy: Energy,
     positions: Vectors,
     mass: Vectors,
     factoriser: Factoriser,

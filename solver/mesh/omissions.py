@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.checks import CONTACT, LARGEST_WIRE_STRAIN, SLACK, TWIST, writhe
+from solver.checks import CLOSENESS, CONTACT, LARGEST_WIRE_STRAIN, SLACK, TWIST, writhe
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.scene import ArrayScene
 from solver.mesh.triangulation import Wire
@@ -14,15 +14,12 @@ from solver.omitted import OmittedTerm
 Vectors = NDArray[np.float64]
 
 MOST_WRITHE_POINTS = 160
-_NEIGHBOURS = 0.25
-"""Points of a wire nearer than this share of its length are neighbours, not in contact."""
 
 
 def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
     """Measure what the model leaves out, on the shape that it gave."""
     loops = [found.positions[wire.vertices] for wire in found.mesh.wires]
     strain = max(_wire_strain(found, wire) for wire in found.mesh.wires)
-    gap = min(_smallest_gap(loop) for loop in loops)
     turns = max(abs(writhe(_thinned(loop))) for loop in loops)
     scene = found.scene.loop if isinstance(found.scene, ArrayScene) else found.scene
     slack = OmittedTerm(
@@ -31,16 +28,10 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
         max(0.0, -found.smallest_stress),
         matters=found.smallest_stress < 0 < scene.strain,
     )
-    # with a tension field the energy has that term
+    # a term that the energy has is not omitted
     return (
         *(() if found.tension_field else (slack,)),
-        OmittedTerm(
-            CONTACT,
-            "distance of neighbouring wire points / smallest distance across a loop",
-            _edge_length(loops[0]) / gap,
-            matters=gap < _edge_length(loops[0]),
-            fatal=gap < _edge_length(loops[0]) / 2,
-        ),
+        *(() if found.contact else (_contact(found),)),
         OmittedTerm(TWIST, "writhe of a loop", turns, matters=turns > 1e-3),
         OmittedTerm(
             "wire's softness beyond small stretch",
@@ -48,6 +39,20 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
             strain,
             matters=strain > LARGEST_WIRE_STRAIN,
         ),
+    )
+
+
+def _contact(found: MeshEquilibrium) -> OmittedTerm:
+    near, thick = found.distances, found.wire_diameter
+    apart = min(near.wire_to_wire, 2 * near.wire_to_fabric)
+    # what crosses is at no distance; the number of crossings says more than infinity
+    closeness = near.crossings if near.crossings else thick / max(apart, 1e-9)
+    return OmittedTerm(
+        CONTACT,
+        CLOSENESS,
+        float(closeness),
+        matters=near.crossings > 0 or apart < 2 * thick,
+        fatal=found.meets_itself,
     )
 
 
@@ -60,18 +65,5 @@ def _edges(loop: Vectors) -> Vectors:
     return np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
 
 
-def _edge_length(loop: Vectors) -> float:
-    return float(_edges(loop).mean())
-
-
 def _thinned(loop: Vectors) -> Vectors:
     return loop[:: max(1, len(loop) // MOST_WRITHE_POINTS)]
-
-
-def _smallest_gap(loop: Vectors) -> float:
-    """Smallest distance of points of a closed wire that are no neighbours along it."""
-    n = len(loop)
-    apart = max(2, int(_NEIGHBOURS * n))
-    shifts = np.arange(apart, n // 2 + 1)
-    others = loop[(np.arange(n)[:, None] + shifts) % n]
-    return float(np.linalg.norm(loop[:, None] - others, axis=2).min())

@@ -1,7 +1,14 @@
 import numpy as np
 import pytest
 
-from solver.checks import smallest_bend_radius, smallest_stress, smallest_wire_gap, writhe
+from solver.checks import (
+    CONTACT,
+    smallest_bend_radius,
+    smallest_fabric_gap,
+    smallest_stress,
+    smallest_wire_gap,
+    writhe,
+)
 from solver.compact import solve_loop
 from solver.disc_functions import DiscFunction
 from solver.flat import flat_shape
@@ -49,3 +56,21 @@ def test_crossed_crests_are_seen():
     inside_out = {(0, DiscFunction(1, 0, "cos")): -0.1, (1, DiscFunction(1, 0, "sin")): -0.1}
     shape = LoopShape(unknowns, from_expansion(unknowns, inside_out))
     assert smallest_wire_gap(shape) < 0
+
+
+def test_wire_and_fabric_of_a_flat_loop_are_as_far_apart_as_is_looked():
+    scene = LoopScene(0.3, 0.05, 0.3, axial_stiffness=1e9)
+    assert smallest_fabric_gap(scene, flat_shape(scene, 5)) == pytest.approx(0.3, abs=0.06)
+
+
+def test_distances_are_compared_with_the_wires_diameter():
+    """At ε = 1, where the crests are near, a wire of less axial stiffness is a thicker one."""
+    thin, thick = (
+        solve_loop(LoopScene(1.0, 0.0145, 0.3, axial_stiffness=k), allow_unreliable=True)
+        for k in (1000.0, 20.0)
+    )
+    values = [
+        next(left for left in found.omitted if left.term == CONTACT) for found in (thin, thick)
+    ]
+    assert not values[0].fatal
+    assert values[1].value > 4 * values[0].value

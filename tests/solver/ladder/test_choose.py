@@ -67,6 +67,12 @@ def test_arrays_that_act_on_each_other_are_meshed():
     kept = solve_scene(ArrayScene(LOOP, 2, 2, Between.KEPT), tolerance=0.05)
     assert kept.rung is Rung.MESH
     assert kept.height_over_perimeter > 1.3 * solve_scene(LOOP).height_over_perimeter
+    # the fabric in the middle draws the loops together until they meet
+    assert "contact was added" in kept.reason
+    assert "contact" in kept.terms
+    assert kept.equilibrium.contact.before.crossings > 0
+    assert not kept.equilibrium.meets_itself
+    assert all("contact" not in left.term for left in kept.omitted)
 
 
 @pytest.mark.parametrize("fidelity", [Fidelity.SCALING, Fidelity.COMPACT])

@@ -1,0 +1,155 @@
+"""Solve a scene whose parts meet: follow it from a prestrain at which they do not.
+
+A shape that already passes through itself could not be mended. So the solve begins at a smaller
+prestrain, whose shape is found without contact and comes nowhere near itself, and raises the
+prestrain from there, with barriers and with steps that pass through nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.errors import NotConvergedError
+from solver.mesh.account import account
+from solver.mesh.contact_energy import CONTACT_TERM, ContactEnergy, ContactFactoriser
+from solver.mesh.descent import Solved, gradient_limit, mass_of
+from solver.mesh.equilibrium import ContactAccount, MeshEquilibrium
+from solver.mesh.newton_sparse import minimise_sparse
+from solver.mesh.problem import MeshProblem, array_problem, loop_problem
+from solver.mesh.scene import ArrayScene
+from solver.mesh.search import SearchLimits
+from solver.mesh.self_contact import SelfContact
+from solver.mesh.solve import solve_array, solve_loop_mesh
+from solver.mesh.thickness import thickness_barriers
+from solver.round_wire import wire_diameter
+from solver.scene import LoopScene
+
+Vectors = NDArray[np.float64]
+Scene = LoopScene | ArrayScene
+
+_FREE_PARTS = (0.5, 0.25, 0.1, 0.03, 0.01, 0.0)
+"""Of the prestrain: where to begin, the largest that will do."""
+_RAISES = 4
+"""Steps from there to the whole prestrain."""
+_ON_THE_WAY = SearchLimits(decrease=1e-4, steps=100)
+
+
+def _loop_of(scene: Scene) -> LoopScene:
+    return scene.loop if isinstance(scene, ArrayScene) else scene
+
+
+def _with_strain(scene: Scene, strain: float) -> Scene:
+    if isinstance(scene, ArrayScene):
+        return replace(scene, loop=replace(scene.loop, strain=strain))
+    return replace(scene, strain=strain)
+
+
+def _solved_freely(scene: Scene, refinement: int, *, field: bool) -> MeshEquilibrium:
+    solve: Callable[..., MeshEquilibrium] = (
+        solve_array if isinstance(scene, ArrayScene) else solve_loop_mesh
+    )
+    return solve(scene, refinement=refinement, tension_field=field, allow_unreliable=True)
+
+
+def _problem(scene: Scene, refinement: int, *, field: bool) -> MeshProblem:
+    if isinstance(scene, ArrayScene):
+        return array_problem(scene, refinement, tension_field=field)
+    return loop_problem(scene, refinement, tension_field=field)
+
+
+def _energy(problem: MeshProblem, diameter: float, strain: float) -> ContactEnergy:
+    last = len(problem.meshes) - 1
+    barriers = thickness_barriers(problem.meshes[last], diameter, strain)
+    return ContactEnergy(problem.energy(last), barriers)
+
+
+def _free_shape(
+    scene: Scene, energy: ContactEnergy, refinement: int, *, field: bool
+) -> tuple[float, Vectors]:
+    """Give a prestrain at which the shape keeps its thickness, and the positions (n, 3) there."""
+    strain = _loop_of(scene).strain
+    for part in _FREE_PARTS:
+        found = _solved_freely(_with_strain(scene, part * strain), refinement, field=field)
+        clear = math.isfinite(energy.value(found.positions))
+        if clear and found.distances.crossings == 0:
+            return part * strain, found.positions
+    raise NotConvergedError(
+        "contact: the shape meets itself at every prestrain; take a thinner wire or larger loops"
+    )
+
+
+def _raised(
+    energy: ContactEnergy,
+    start: Vectors,
+    mass: Vectors,
+    limits: SearchLimits,
+    backend: str | None,
+) -> Solved:
+    factoriser = ContactFactoriser(energy, backend)
+    minimum = minimise_sparse(energy, start, mass, factoriser, limits)
+    return Solved(energy, factoriser, minimum)
+
+
+def _contact_account(
+    energy: ContactEnergy, found: MeshEquilibrium, before: SelfContact | None
+) -> ContactAccount:
+    forces = np.linalg.norm(energy.forces(found.positions), axis=1)
+    return ContactAccount(
+        wire_diameter=found.wire_diameter,
+        before=before,
+        touching=energy.touching(found.positions),
+        largest_force=float(forces.max()),
+        energy_share=found.energy_terms[CONTACT_TERM] / found.energy,
+    )
+
+
+def solve_in_contact(
+    scene: Scene,
+    *,
+    refinement: int = 2,
+    tension_field: bool = False,
+    backend: str | None = None,
+    most_steps: int = 500,
+    allow_unreliable: bool = False,
+    before: SelfContact | None = None,
+) -> MeshEquilibrium:
+    """Find a minimum whose wires and fabric keep apart; see `solver.mesh.solve` for the options.
+
+    Parameters
+    ----------
+    before : SelfContact, optional
+        How near the shape comes to itself without contact, for the account.
+
+    Raises
+    ------
+    NotConvergedError
+        When no minimum is reached.
+    SceneError
+        When the library for contact is not installed, or as `solve_loop_mesh` and `solve_array`.
+    """
+    loop = _loop_of(scene)
+    diameter = wire_diameter(loop)
+    problem = _problem(scene, refinement, field=tension_field)
+    mass = mass_of(problem.meshes[-1])
+    energy = _energy(problem, diameter, loop.strain)
+    strain, positions = _free_shape(scene, energy, refinement, field=tension_field)
+    solved: list[Solved] = []
+    for between in np.linspace(strain, loop.strain, _RAISES + 1)[1:-1]:
+        partial = _energy(replace(problem, strain=float(between)), diameter, loop.strain)
+        limits = replace(_ON_THE_WAY, steady=tension_field)
+        solved.append(_raised(partial, positions, mass, limits, backend))
+        positions = solved[-1].minimum.positions
+    limits = SearchLimits(gradient_limit(problem), steps=most_steps, steady=tension_field)
+    solved.append(_raised(energy, positions, mass, limits, backend))
+    found = account(scene, problem, solved[-1:], lenient=allow_unreliable)
+    return replace(
+        found,
+        steps=sum(s.minimum.steps for s in solved),
+        factorizations=sum(s.minimum.factorizations for s in solved),
+        contact=_contact_account(energy, found, before),
+    )

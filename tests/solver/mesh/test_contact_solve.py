@@ -1,0 +1,62 @@
+"""Shapes that would pass through themselves, kept from it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from solver.mesh.contact_energy import CONTACT_TERM
+from solver.mesh.contact_solve import solve_in_contact
+from solver.mesh.solve import solve_loop_mesh
+from solver.scene import LoopScene
+
+CLOSED = LoopScene(2.0, 0.0145, 0.3)
+OPEN = LoopScene(0.3, 0.0145, 0.3)
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["plain", "tension field"])
+def closed(request):
+    return solve_in_contact(CLOSED, refinement=2, tension_field=request.param)
+
+
+def test_without_contact_the_loop_passes_through_itself():
+    through = solve_loop_mesh(CLOSED, refinement=2)
+    assert through.distances.crossings > 0
+    assert through.meets_itself
+
+
+def test_a_loop_that_closes_keeps_its_thickness(closed):
+    assert closed.status == "converged"
+    assert closed.lowest_eigenvalue > 0
+    assert not closed.meets_itself
+    near, thick = closed.distances, closed.contact.wire_diameter
+    assert thick == pytest.approx(0.02154, rel=1e-3)
+    assert near.crossings == 0
+    assert near.wire_to_wire >= thick
+    assert thick / 2 <= near.wire_to_fabric <= 0.6 * thick  # it rests on the barrier
+
+
+def test_the_barriers_hold_next_to_no_energy(closed):
+    assert closed.contact.touching > 0
+    assert 0 < closed.contact.energy_share < 1e-3
+    assert closed.energy_terms[CONTACT_TERM] < 1e-3 * closed.energy
+    assert closed.contact.largest_force > 0
+
+
+def test_the_height_is_that_of_a_finer_mesh(closed):
+    """Refinement 3 gives 0.1279, which takes too long to be solved here."""
+    assert closed.height_over_perimeter == pytest.approx(0.1279, rel=0.02)
+
+
+@pytest.mark.parametrize("field", [False, True])
+def test_a_loop_that_touches_nothing_is_as_without_contact(field):
+    alone = solve_loop_mesh(OPEN, refinement=2, tension_field=field)
+    kept = solve_in_contact(OPEN, refinement=2, tension_field=field)
+    assert kept.contact.touching == 0
+    assert kept.energy == pytest.approx(alone.energy, rel=1e-9)
+    assert kept.height == pytest.approx(alone.height, rel=1e-6 if not field else 1e-4)
+
+
+def test_the_same_every_time():
+    one, other = (solve_in_contact(replace(CLOSED, strain=1.4), refinement=1) for _ in range(2))
+    assert np.array_equal(one.positions, other.positions)
