@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from solver.errors import SceneError
 from solver.mesh.array_mesh import Between
 from solver.mesh.correction import Move, corrected
 from solver.mesh.descent import mass_of
@@ -11,7 +12,7 @@ from solver.mesh.factorization import factoriser
 from solver.mesh.krylov import QuadraticModel, symmetric_product
 from solver.mesh.problem import array_problem, loop_problem
 from solver.mesh.scene import ArrayScene
-from solver.mesh.solve import solve_array
+from solver.mesh.solve import solve_array, solve_loop_mesh
 from solver.mesh.triangulation import embedded
 from solver.scene import LoopScene
 
@@ -88,10 +89,12 @@ def test_a_turn_taken_to_first_order_is_bent_back():
     assert np.corrcoef(bent.displacement.ravel(), straight.displacement.ravel())[0, 1] > 0.95
 
 
-def test_what_no_correction_helps_is_left_alone():
+@pytest.mark.parametrize("wrong", [-1e3, -1e-6])
+def test_what_no_correction_helps_is_left_alone(wrong):
+    """Neither one that is far too long nor a short one that leads uphill is taken."""
     flat, straight = _moved_by(0.2)
     model = QuadraticModel(
-        np.zeros(flat.size), lambda v: v, lambda v: v, lambda v: -1e3 * v, convex=True
+        np.zeros(flat.size), lambda v: v, lambda v: v, lambda v: wrong * v, convex=True
     )
     bent = corrected(ENERGY, model, flat, straight, ENERGY.value(flat))
     assert bent is straight
@@ -103,6 +106,12 @@ def test_arrays_with_their_fabric_kept_take_few_steps():
     assert found.status == "converged"
     assert found.steps < 90
     assert found.energy == pytest.approx(3.0611821, rel=1e-7)
+
+
+@pytest.mark.parametrize("segments", [4, 18, 0])
+def test_fans_whose_contacts_would_lie_between_vertices_are_refused(segments):
+    with pytest.raises(SceneError, match=f"segments = {segments}: must be a multiple of 4"):
+        solve_loop_mesh(LOOP, segments=segments)
 
 
 @pytest.mark.parametrize("segments", [8, 36])
