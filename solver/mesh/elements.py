@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum, auto
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,4 +41,21 @@ class Elements(Protocol):
         self, corners: Vectors, curvature: Curvature
     ) -> tuple[Vectors, Vectors, Vectors]:
         """Energies (m,), gradients (m, 3a) and Hessians (m, 3a, 3a)."""
+        ...
+
+
+@runtime_checkable
+class Stretching(Protocol):
+    """A family whose energy is a function of stretches, which grow with the square of a turn."""
+
+    def excess(self, corners: Vectors, move: Vectors, reached: Vectors) -> Vectors:
+        """Pulls (m, 3a) of the stretch that a move brings beyond what is linear in it.
+
+        Parameters
+        ----------
+        corners, move : array (m, a, 3)
+            Where the elements were, and where they were meant to go from there.
+        reached : array (m, a, 3)
+            Where they are; the pulls act along their stretches' slopes at ``corners``.
+        """
         ...

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.assembly import FamilyAssembly, LowerPattern, block_pattern, family_assembly
-from solver.mesh.elements import Curvature, Elements
+from solver.mesh.elements import Curvature, Elements, Stretching
 
 Vectors = NDArray[np.float64]
 
@@ -80,6 +80,16 @@ class MeshEnergy:
             gradient += self.assemblies[name].gradient(found[1], self.pattern.size)
             entries += self.assemblies[name].hessian(found[2], len(self.pattern.rows))
         return value, gradient.reshape(-1, 3), entries
+
+    def excess(self, positions: Vectors, move: Vectors, reached: Vectors) -> Vectors:
+        """Pull (3n,) of the stretch that a move (n, 3) brings beyond what is linear in it."""
+        pull = np.zeros(self.pattern.size)
+        for name, elements in self.families.items():
+            if isinstance(elements, Stretching):
+                where = elements.vertices
+                found = elements.excess(positions[where], move[where], reached[where])
+                pull += self.assemblies[name].gradient(found, self.pattern.size)
+        return pull
 
 
 def mesh_energy(families: Mapping[str, Elements], vertices: int) -> MeshEnergy:

@@ -7,11 +7,12 @@ leaves saddle points along their negative directions.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.mesh.correction import Move, corrected
 from solver.mesh.elements import Curvature
 from solver.mesh.factorization import Factored, Factoriser
 from solver.mesh.krylov import QuadraticModel, Step, symmetric_product, trust_region_step
@@ -24,14 +25,18 @@ _FREE_MOTION = 1e-5
 """Stiffness, in units of E_f t, lent to motions that have none, such as rigid ones."""
 _CONVEX_FREE_MOTION = 1e-4
 _ROUNDING = 1e-13
-_NEXT_TO_NOTHING = 1e-9
+_NEXT_TO_NOTHING = 1e-10
 """Part of the energy that a minimum may lack along an all but free motion."""
 _LITTLE = 1e-6
-"""Part of the energy that a step from a minimum may still gain where fabric is wrinkled."""
+"""Part of the energy that a way down from a minimum may still gain where fabric is wrinkled."""
+_STALLED_STEPS = 10
+"""Steps in a row that gain so little together where fabric is wrinkled."""
 _ALL_BUT_FREE = 1e-3
 """Largest stiffness of such a motion, in units of E_f t."""
 _SMALL_GRADIENT = 1e-4
 """Largest component of the gradient while it lasts."""
+_GOOD_RATIO = 0.75
+"""Of what a step brings to what the model promised, for the model to be trusted further."""
 _SMALLEST_RADIUS = 1e-12
 _LONGEST_MOVE = 0.5
 """Of any vertex in one step, in units of R."""
@@ -39,8 +44,11 @@ _LONGEST_MOVE = 0.5
 
 @dataclass
 class _Account:
+    """What a search has spent, and the energy at each shape on its way."""
+
     steps: int = 0
     factorizations: int = 0
+    values: list[float] = field(default_factory=list[float])
 
 
 @dataclass(frozen=True)
@@ -142,32 +150,57 @@ def _tried(
         trusted = abs(value - state.value) < 100 * noise
         return _Tried(state.positions + move, trusted, 2 * radius if trusted else 0.25 * length)
     ratio = (value - state.value) / promised if promised < 0 else -1.0
+    if not ratio > _GOOD_RATIO:
+        straight = Move(move, value)
+        bent = corrected(search.energy, model, state.positions, straight, state.value + promised)
+        move, value = bent.displacement, bent.value
+        ratio = (value - state.value) / promised if promised < 0 else -1.0
     if not ratio > 0.25:  # also when the energy is not a number
         return _Tried(state.positions + move, ratio > 1e-4, 0.25 * length)
     factor, value = _lengthened(search.energy, state.positions, move, value)
-    if ratio > 0.75 and (step.bounded or factor > 1):
+    if ratio > _GOOD_RATIO and (step.bounded or factor > 1):
         radius = max(radius, max(2.0, factor) * length)
     return _Tried(state.positions + factor * move, accepted=True, radius=radius)
 
 
-def _free_to_drift(search: _Search, state: _State, model: QuadraticModel) -> bool:
-    """Whether all that is left is a motion that is all but free, and next to nothing to gain.
+def _free_to_drift(search: _Search, model: QuadraticModel) -> bool:
+    """Whether all that is left is a motion that is all but free.
 
     Such is the turn of a round loop's fabric under its saddle: the gradient may take many steps
     along it to vanish while the energy no longer changes.
     """
-    if not model.convex or state.gradient_norm > _SMALL_GRADIENT:
-        return False
     step = model.inverse(model.gradient)
-    gain = float(model.gradient @ step)
-    free = gain <= _ALL_BUT_FREE * float(step @ (search.mass * step))
-    return (free or search.limits.steady) and gain <= 2 * _NEXT_TO_NOTHING * abs(state.value)
+    pull = float(model.gradient @ step)
+    return pull <= _ALL_BUT_FREE * float(step @ (search.mass * step))
+
+
+def _settled(search: _Search, state: _State, model: QuadraticModel) -> bool:
+    """Whether the gradient is small for a shape that the model keeps, and the energy is down.
+
+    Where wires are stiff a small gradient alone says little of soft motions, such as buckling at
+    the threshold.
+    """
+    limits = search.limits
+    if not model.convex or state.gradient_norm > max(_SMALL_GRADIENT, limits.gradient):
+        return False
+    gain = float(model.gradient @ model.inverse(model.gradient)) / 2
+    if gain > max(_NEXT_TO_NOTHING * abs(state.value), _noise(state.value)):
+        return False
+    small = state.gradient_norm <= limits.gradient
+    return small or limits.steady or _free_to_drift(search, model)
+
+
+def _stalled(search: _Search, state: _State) -> bool:
+    """Whether steps over the kinks of wrinkled fabric gain next to nothing, many in a row."""
+    if not search.limits.steady or state.gradient_norm > _SMALL_GRADIENT:
+        return False
+    before = search.account.values[-1 - _STALLED_STEPS : -_STALLED_STEPS]
+    return bool(before) and before[0] - state.value <= _LITTLE * abs(state.value)
 
 
 def _at_rest(search: _Search, state: _State, model: QuadraticModel) -> bool:
     """Whether nothing pulls any more, and the model has no way down."""
-    still = model.convex and state.gradient_norm <= search.limits.gradient
-    return still or _free_to_drift(search, state, model)
+    return _stalled(search, state) or _settled(search, state, model)
 
 
 def _modelled(search: _Search, state: _State) -> tuple[QuadraticModel, Factored, Vectors]:
@@ -234,6 +267,7 @@ def minimise_sparse(
     state = search.state(positions)
     radius = limits.radius
     while True:
+        search.account.values.append(state.value)
         model, factored, _ = _modelled(search, state)
         at_rest = _at_rest(search, state, model)
         if at_rest and limits.steady:

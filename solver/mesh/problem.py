@@ -12,7 +12,7 @@ from solver.loop_energy import scene_membrane
 from solver.mesh.array_mesh import array_fan
 from solver.mesh.bonds import bond_energy
 from solver.mesh.elements import Elements
-from solver.mesh.loop_mesh import loop_fan
+from solver.mesh.loop_mesh import SEGMENTS, loop_fan
 from solver.mesh.mesh_energy import MeshEnergy, mesh_energy
 from solver.mesh.rod_energy import WireStiffness, rod_energies
 from solver.mesh.scene import ArrayScene, Contact, loop_wire
@@ -87,11 +87,13 @@ def _check_refinement(times: int) -> None:
         raise SceneError(f"refinement = {times}: must be from 0 to {LARGEST_REFINEMENT}")
 
 
-def loop_problem(scene: LoopScene, refinement: int, *, tension_field: bool = False) -> MeshProblem:
-    """One loop on a fan of 20 triangles, refined so many times."""
+def loop_problem(
+    scene: LoopScene, refinement: int, *, tension_field: bool = False, segments: int = SEGMENTS
+) -> MeshProblem:
+    """One loop on a fan of so many triangles, refined so many times."""
     _check_refinement(refinement)
     return MeshProblem(
-        meshes=refinements(loop_fan(scene.axis_ratio), refinement),
+        meshes=refinements(loop_fan(scene.axis_ratio, segments), refinement),
         strain=scene.strain,
         fabric=scene_membrane(scene).stiffness,
         wires=(loop_wire(scene),),
@@ -101,11 +103,11 @@ def loop_problem(scene: LoopScene, refinement: int, *, tension_field: bool = Fal
 
 
 def array_problem(
-    scene: ArrayScene, refinement: int, *, tension_field: bool = False
+    scene: ArrayScene, refinement: int, *, tension_field: bool = False, segments: int = SEGMENTS
 ) -> MeshProblem:
-    """A grid of loops, each on a fan of 20 triangles, refined so many times."""
+    """A grid of loops, each on a fan of so many triangles, refined so many times."""
     _check_refinement(refinement)
-    coarsest = array_fan(scene.grid, scene.between, scene.loop.axis_ratio)
+    coarsest = array_fan(scene.grid, scene.between, scene.loop.axis_ratio, segments)
     bonded = scene.contact is Contact.BONDED and scene.rows * scene.columns > 1
     return MeshProblem(
         meshes=refinements(coarsest, refinement),

@@ -97,6 +97,16 @@ class AxialEnergy:
         energies = self.stiffness / 2 * (length - self.rest) ** 2 / self.rest
         return energies, np.concatenate([-pull, pull], axis=1), hessian
 
+    def excess(self, corners: Vectors, move: Vectors, reached: Vectors) -> Vectors:
+        """Pulls (m, 6) of the stretch that a move brings beyond what is linear in it."""
+        along = corners[:, 1] - corners[:, 0]
+        length = np.linalg.norm(along, axis=1)
+        unit = along / length[:, None]
+        meant = length + np.sum(unit * (move[:, 1] - move[:, 0]), axis=1)
+        beyond = np.linalg.norm(reached[:, 1] - reached[:, 0], axis=1) - meant
+        pull = (self.stiffness * beyond / self.rest)[:, None] * unit
+        return np.concatenate([-pull, pull], axis=1)
+
 
 def _edges(corners: Vectors) -> Turn:
     return Turn(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1])

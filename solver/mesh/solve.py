@@ -11,6 +11,7 @@ from solver.mesh.account import account
 from solver.mesh.array_mesh import Between
 from solver.mesh.descent import descend, roughly_solved
 from solver.mesh.equilibrium import MeshEquilibrium
+from solver.mesh.loop_mesh import SEGMENTS
 from solver.mesh.problem import MeshProblem, array_problem, loop_problem
 from solver.mesh.scene import ArrayScene
 from solver.mesh.start import aligned_saddle, array_start, loop_start, tiled_start
@@ -36,18 +37,21 @@ def solve_loop_mesh(
     scene: LoopScene,
     *,
     refinement: int = 3,
+    segments: int = SEGMENTS,
     start: Vectors | None = None,
     backend: str | None = None,
     most_steps: int = 500,
     tension_field: bool = False,
     allow_unreliable: bool = False,
 ) -> MeshEquilibrium:
-    """Find a minimum of one loop's energy on a fan of 20 triangles split in 4 so many times.
+    """Find a minimum of one loop's energy on a fan of triangles split in 4 so many times.
 
     Parameters
     ----------
     refinement : int
-        0 to 6; the wire has 20 · 2^refinement edges. The error falls by 4 with each.
+        0 to 6; the error falls by 4 with each.
+    segments : int
+        Triangles of the fan, and the wire's edges round it, before they are split: a multiple of 4.
     start : array (n, 3), optional
         Positions of the finest mesh's vertices near the minimum, such as those of a neighbouring
         scene; by default the solve begins on a coarse mesh, near the flat state.
@@ -68,7 +72,7 @@ def solve_loop_mesh(
         When the refinement is out of range, or a tension field is asked of fabric whose directions
         are not alike.
     """
-    problem = loop_problem(scene, refinement, tension_field=tension_field)
+    problem = loop_problem(scene, refinement, tension_field=tension_field, segments=segments)
     if start is not None:
         _check_start(problem, start)
         solved = descend(problem, refinement, start, backend, most_steps)
@@ -89,6 +93,7 @@ def solve_array(
     scene: ArrayScene,
     *,
     refinement: int = 2,
+    segments: int = SEGMENTS,
     start: Vectors | None = None,
     backend: str | None = None,
     most_steps: int = 500,
@@ -100,14 +105,18 @@ def solve_array(
     A grid whose gaps are cut has hinges that cost nothing: bonded pairs turn about their common
     tangent. Of the shapes that differ by them it is the one in which the loops lie level.
     """
-    problem = array_problem(scene, refinement, tension_field=tension_field)
+    problem = array_problem(scene, refinement, tension_field=tension_field, segments=segments)
     last = len(problem.meshes) - 1
     if start is not None:
         _check_start(problem, start)
         solved = descend(problem, last, start, backend, most_steps)
     elif _tiles(scene):
         loop = solve_loop_mesh(
-            scene.loop, refinement=refinement, backend=backend, tension_field=tension_field
+            scene.loop,
+            refinement=refinement,
+            segments=segments,
+            backend=backend,
+            tension_field=tension_field,
         )
         tile = aligned_saddle(loop.mesh, loop.positions)
         tiles = tiled_start(problem.meshes[-1], loop.mesh, tile)

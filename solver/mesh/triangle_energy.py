@@ -83,6 +83,13 @@ class TriangleEnergy:
         self._add_geometric(hessians, weighted)
         return energies, gradients, hessians
 
+    def excess(self, corners: Vectors, move: Vectors, reached: Vectors) -> Vectors:
+        """Pulls (m, 9) of the strain that a move brings beyond what is linear in it."""
+        slope = self._strain_slope(self._deformation(corners))
+        meant = self._strain(corners) + (slope @ move.reshape(-1, 9, 1))[:, :, 0]
+        beyond = self.law.stress(self._strain(reached)) - self.law.stress(meant)
+        return ((self.areas[:, None] * beyond)[:, None, :] @ slope)[:, 0]
+
     def _strain_slope(self, deformation: Vectors) -> Vectors:
         """Derivative (m, 3, 9) of (E₁₁, E₂₂, 2E₁₂) by the corners' positions."""
         along_1, along_2 = deformation[:, None, :, 0], deformation[:, None, :, 1]
