@@ -275,7 +275,7 @@ def _check_cut(reading: _Reading) -> Faults:
 
 
 def _outline_faults(outline: Outline, expected: Outline) -> Faults:
-    if not _same_lines([outline.outside], [expected.outside]):
+    if not _same_lines(outline.outsides, expected.outsides):
         yield "the outside is not the one that was designed"
     if not _same_lines(outline.openings, expected.openings):
         yield "the openings are not the ones that were designed"
