@@ -14,7 +14,6 @@ import numpy as np
 from patterns.circuit import Circuit, Crossing
 from patterns.errors import PatternError
 from patterns.layout import tangent_layout
-from patterns.one_wire import one_wire
 from patterns.outline import Outline, cut_outline
 from patterns.plan import StitchPlan
 from patterns.registration import Mark, registration_marks
@@ -26,6 +25,7 @@ from patterns.violation import Violation
 from sesame_cad.errors import InputError
 from sesame_cad.specification import Specification
 from sesame_cad.state import State, solve_state
+from sesame_cad.wiring import wired
 from solver.errors import SceneError
 
 Result = TypeVar("Result")
@@ -115,13 +115,11 @@ def _refusing(spec: Specification, work: Callable[[], Result]) -> Result:
 
 def _pattern(spec: Specification) -> Pattern:
     stitching, machine = spec.patterns_stitching(), spec.patterns_machine()
-    wire_mm = spec.wire.diameter_mm
+    wire_mm = spec.diameters_mm
     layout = tangent_layout(spec.layout.loops(), spec.layout.tolerance_mm)
-    circuit = one_wire(layout, spec.layout.side, stitching.tail_length_mm)
+    circuit = wired(spec, layout)
     outline = cut_outline(circuit, wire_mm, spec.outline.margin_mm, spec.outline.corner_radius_mm)
-    low, high = outline.outside.min(axis=0), outline.outside.max(axis=0)
-    bounds = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
-    marks = registration_marks(bounds, stitching.mark_size_mm, stitching.mark_gap_mm)
+    marks = registration_marks(outline.bounds_mm, stitching.mark_size_mm, stitching.mark_gap_mm)
     plan = stitch_plan(circuit, stitching, machine, wire_mm, marks)
     violations = (
         *check_plan(circuit, plan, machine, stitching, wire_mm),
@@ -148,7 +146,7 @@ def covered_crossings(spec: Specification, laid: Pattern) -> tuple[Crossing, ...
         laid.plan,
         spec.patterns_machine(),
         spec.patterns_stitching(),
-        spec.wire.diameter_mm,
+        spec.diameters_mm,
     )
     bare = check_insulation(subject)
     crossings = laid.circuit.crossings

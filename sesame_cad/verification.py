@@ -242,7 +242,7 @@ def _rule_faults(records: Records, made: Design) -> Faults:
         plan,
         spec.patterns_machine(),
         spec.patterns_stitching(),
-        spec.wire.diameter_mm,
+        spec.diameters_mm,
     )
     for _, of_rule in groupby(violations, key=lambda violation: violation.rule):
         yield from _limited(map(str, of_rule), MOST_OF_A_RULE)
@@ -270,7 +270,7 @@ def _check_cut(reading: _Reading) -> Faults:
         if not _same_lines(strokes, expected):
             yield f"{path}: the registration marks are not those of the stitch file"
         margin = spec.outline.margin_mm - OUTLINE_TOLERANCE_MM
-        for fault in check_outline(outline, laid.circuit, spec.wire.diameter_mm, margin, laid.plan):
+        for fault in check_outline(outline, laid.circuit, spec.diameters_mm, margin, laid.plan):
             yield f"{path}: {fault}"
 
 

@@ -70,7 +70,7 @@ def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
             raise DesignFileError(f"a line on layer {layer} of the DXF is not closed")
     outside = [_points(line) for layer, line in lines if layer == "CUT"]
     if not outside:
-        raise DesignFileError("no line on the DXF's layer CUT")
+        raise DesignFileError("0 lines on the DXF's layer CUT instead of one or more")
     openings = tuple(_points(line) for layer, line in lines if layer == "HOLE")
     strokes = tuple(_points(line) for layer, line in lines if layer == "MARK")
     return Outline(outside[0], openings, tuple(outside[1:])), strokes

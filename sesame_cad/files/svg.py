@@ -71,7 +71,7 @@ def read_outline_svg(data: bytes) -> tuple[Outline, Strokes]:
         if not all(closed for _, closed in layers[layer]):
             raise DesignFileError(f"a line on layer {layer} of the SVG is not closed")
     if not layers["CUT"]:
-        raise DesignFileError("no line on the SVG's layer CUT")
+        raise DesignFileError("0 lines on the SVG's layer CUT instead of one or more")
     (outside, _), *further = layers["CUT"]
     openings = tuple(ring for ring, _ in layers["HOLE"])
     outline = Outline(outside, openings, tuple(ring for ring, _ in further))

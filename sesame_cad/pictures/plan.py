@@ -80,7 +80,9 @@ def _figure_size(outline: Outline, marks: tuple[Mark, ...]) -> tuple[float, floa
 
 def _arrow_mm(circuit: Circuit, outline: Outline) -> float:
     loop_mm = min(loop.diameter_mm for loop in circuit.layout.loops)
-    return min(_ARROW_SHARE * (outline.bounds_mm[2] - outline.bounds_mm[0]), _LARGEST_ARROW * loop_mm)
+    return min(
+        _ARROW_SHARE * (outline.bounds_mm[2] - outline.bounds_mm[0]), _LARGEST_ARROW * loop_mm
+    )
 
 
 def _draw_cut(axes: Axes, outline: Outline, marks: tuple[Mark, ...]) -> None:
