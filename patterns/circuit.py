@@ -75,6 +75,16 @@ class Circuit:
         return (self,)
 
     @property
+    def part_names(self) -> tuple[str, ...]:
+        """What the operator calls each part."""
+        return ("all",)
+
+    @property
+    def part_loops(self) -> tuple[tuple[int, ...], ...]:
+        """The loops of each part, as indices into ``layout.loops``."""
+        return (tuple(range(len(self.layout.loops))),)
+
+    @property
     def tails(self) -> tuple[WirePath, WirePath]:
         """The tails, at which the wire comes and goes."""
         first, last = self.stages[0].pieces, self.stages[-1].pieces

@@ -45,6 +45,16 @@ class Wiring(Circuit):
         return self.circuits
 
     @property
+    def part_names(self) -> tuple[str, ...]:
+        """The names of the groups."""
+        return tuple(group.name for group in self.groups)
+
+    @property
+    def part_loops(self) -> tuple[tuple[int, ...], ...]:
+        """The loops of the groups."""
+        return tuple(group.loops for group in self.groups)
+
+    @property
     def closed(self) -> bool:
         """Whether every wire, its tails taken off, is a closed curve."""
         return all(circuit.closed for circuit in self.circuits)

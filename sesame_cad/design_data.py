@@ -49,7 +49,7 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         **_shape_data(design),
         "circuit": circuit_data(spec, design.pattern),
         "circuits": circuits_data(spec, design.pattern),
-        "electrics": electrics_data(spec, design.pattern.circuit),
+        "electrics": electrics_data(spec, design.pattern),
         "stitch": stitch_data(design.pattern.plan, records),
         "outline": {
             "openings": len(design.pattern.outline.openings),

@@ -7,27 +7,17 @@ from typing import Any
 
 from patterns.circuit import Circuit, CrossingKind
 from patterns.electrics import Drive, Supply, resistance_ohm
-from patterns.wiring import Wiring
+from patterns.net import SewnNet
 from sesame_cad.pipeline import Pattern, covered_crossings
 from sesame_cad.specification import Specification
 
 Data = dict[str, Any]
-
-ONLY_CIRCUIT = "all"
-"""Name of a circuit that runs through all loops."""
 
 
 def in_parallel_ohm(resistances_ohm: Iterable[float]) -> float:
     """Resistance of circuits side by side; a single one's own, to the last digit."""
     own = list(resistances_ohm)
     return own[0] if len(own) == 1 else 1 / sum(1 / one for one in own)
-
-
-def circuit_names(circuit: Circuit) -> tuple[str, ...]:
-    """What the operator calls each circuit."""
-    if isinstance(circuit, Wiring):
-        return tuple(group.name for group in circuit.groups)
-    return (ONLY_CIRCUIT,)
 
 
 def circuit_resistances_ohm(
@@ -49,7 +39,7 @@ def circuits_data(spec: Specification, laid: Pattern) -> list[Data]:
     circuit = laid.circuit
     covered = set(covered_crossings(spec, laid))
     resistances = circuit_resistances_ohm(spec, circuit)
-    wires, names = spec.wires(len(circuit.parts)), circuit_names(circuit)
+    wires, names = spec.wires(len(circuit.parts)), circuit.part_names
     found: list[Data] = []
     for k, part in enumerate(circuit.parts):
         begin, end = circuit.span_mm(k)
@@ -59,7 +49,7 @@ def circuits_data(spec: Specification, laid: Pattern) -> list[Data]:
         found.append(
             {
                 "name": names[k],
-                "loops": _loops(circuit, k),
+                "loops": list(circuit.part_loops[k]),
                 "wire_diameter_mm": wires[k].diameter_mm,
                 "wire_length_mm": part.wire_length_mm,
                 "resistance_ohm_cold": resistances[k][0],
@@ -74,14 +64,19 @@ def circuits_data(spec: Specification, laid: Pattern) -> list[Data]:
     return found
 
 
-def _loops(circuit: Circuit, part: int) -> list[int]:
-    if isinstance(circuit, Wiring):
-        return list(circuit.groups[part].loops)
-    return list(range(len(circuit.layout.loops)))
+def net_data(net: SewnNet) -> Data:
+    """Keys of the electrical net that the stitches alone make."""
+    return {
+        "wires": len(net.wires),
+        "contacts": len(net.meetings),
+        "shorts": len(net.shorts),
+        "resistance_ohm_cold": [net.resistance_ohm(wire) for wire in range(len(net.wires))],
+    }
 
 
-def electrics_data(spec: Specification, circuit: Circuit) -> Data:
+def electrics_data(spec: Specification, laid: Pattern) -> Data:
     """Keys of what the supply must give, to each circuit and to all at the same time."""
+    circuit = laid.circuit
     supply = Supply(spec.supply.voltage_V, spec.supply.current_A)
     wires = spec.wires(len(circuit.parts))
     resistances = circuit_resistances_ohm(spec, circuit)
@@ -91,7 +86,7 @@ def electrics_data(spec: Specification, circuit: Circuit) -> Data:
     total = sum(drive.current_A for drive in drives)
     warnings = [
         f"circuit {name} cannot be driven: {fault}"
-        for name, drive in zip(circuit_names(circuit), drives, strict=True)
+        for name, drive in zip(circuit.part_names, drives, strict=True)
         for fault in drive.faults(supply)
     ]
     together = total <= supply.current_A * (1 + 1e-9)
@@ -111,10 +106,11 @@ def electrics_data(spec: Specification, circuit: Circuit) -> Data:
                 "power_W": drive.power_W,
                 "drivable": not drive.faults(supply),
             }
-            for name, drive in zip(circuit_names(circuit), drives, strict=True)
+            for name, drive in zip(circuit.part_names, drives, strict=True)
         ],
         "total_current_A": total,
         "total_power_W": sum(drive.power_W for drive in drives),
         "drivable_together": together and not any(drive.faults(supply) for drive in drives),
+        "sewn_net": net_data(laid.net),
         "warnings": warnings,
     }

@@ -19,6 +19,7 @@ from patterns.outline import Outline
 from patterns.plan import UNITS_PER_MM, StitchPlan
 from patterns.records import Records, plan_from_records, plan_records
 from patterns.rules import check_plan
+from patterns.rules.net import check_net
 from patterns.rules.outline import check_outline
 from sesame_cad.design_data import FORMAT_VERSION, design_data
 from sesame_cad.errors import DesignFileError, InputError
@@ -28,7 +29,7 @@ from sesame_cad.files.embroidery import read_embroidery
 from sesame_cad.files.stl import read_stl
 from sesame_cad.files.svg import read_outline_svg
 from sesame_cad.package import file_data
-from sesame_cad.pipeline import Design, design
+from sesame_cad.pipeline import Design, design, net_of_stitches
 from sesame_cad.specification import specification_from
 from sesame_cad.staging import DESIGN_FILE
 from solver.errors import NotConvergedError
@@ -244,7 +245,8 @@ def _rule_faults(records: Records, made: Design) -> Faults:
         spec.patterns_stitching(),
         spec.diameters_mm,
     )
-    for _, of_rule in groupby(violations, key=lambda violation: violation.rule):
+    net = check_net(made.pattern.circuit, net_of_stitches(spec, made.pattern.circuit, plan))
+    for _, of_rule in groupby((*violations, *net), key=lambda violation: violation.rule):
         yield from _limited(map(str, of_rule), MOST_OF_A_RULE)
 
 

@@ -9,7 +9,6 @@ from patterns.path import Vectors
 from patterns.rules.near import near_stretches
 from patterns.rules.satin import satin_crossings
 from patterns.rules.subject import Subject
-from patterns.stitching import ROUNDING_MM
 from patterns.violation import Violation
 from patterns.wire_index import Indices, Numbers, WireIndex
 
@@ -67,7 +66,7 @@ def _meeting(
 def _uncovered(
     subject: Subject, stage: int, later: int, stretches: Vectors, crossed: Numbers
 ) -> list[Violation]:
-    largest = 1.5 * subject.stitching.cover_spacing_mm + 2 * ROUNDING_MM
+    largest = subject.stitching.largest_cover_gap_mm
     message = (
         f"short circuit: {_both(subject, stage, later)} of the wire meet, and no cover "
         f"stitches at most {largest:.2f} mm apart lie between them; bare length"
