@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from math import pi
 
 import numpy as np
@@ -14,9 +15,14 @@ from patterns.layout import Layout
 from patterns.path import Vectors, WirePath
 from patterns.tails import Exit, tail_pieces
 from patterns.terminals import DIRECTIONS, FACING_RAD, LEAST_ALIGNMENT, TAIL_CLEAR_MM
+from patterns.wire_index import Indices
 
 LEAST_BEND_MM = 4.0
 """Tails bend no tighter, however thin the wire: two of them and their stitches need the room."""
+
+ROOMY_MM = 10.0
+"""Distance from the loops of other circuits that tails keep when they can: the fabric that is left
+along a tail then does not join that of another array."""
 
 _ANY_ALIGNMENT = -2.0
 _SAME_MM = 1e-6
@@ -33,7 +39,8 @@ def exits(
 
     A tail keeps `TAIL_CLEAR_MM` from every loop but its own and from the tails before it. Tails
     that stay on the tangent are taken where there is room, and those that turn outward elsewhere;
-    when a straight one is in the way of a later circuit, all that can turn outward do.
+    when a straight one is in the way of a later circuit, all that can turn outward do. From other
+    circuits' loops they keep `ROOMY_MM` when all can.
 
     Parameters
     ----------
@@ -50,8 +57,11 @@ def exits(
     PatternError
         When there is no such place on the side that is asked for.
     """
-    for turned_first in (False, True):
-        found = _chosen(layout, groups, tail_length_mm, smallest_bends_mm, turned_first)
+    bends = [max(smallest, LEAST_BEND_MM) for smallest in smallest_bends_mm]
+    found: list[Exit] = []
+    for clear_mm, turned_first in product((ROOMY_MM, TAIL_CLEAR_MM), (False, True)):
+        ways = [_ways(layout, *one, turned_first) for one in zip(groups, bends, strict=True)]
+        found = _chosen(_Room(layout, tail_length_mm, clear_mm), groups, ways)
         if len(found) == len(groups):
             return tuple(found)
     group = groups[len(found)]
@@ -62,24 +72,15 @@ def exits(
     )
 
 
-def _chosen(
-    layout: Layout,
-    groups: tuple[Group, ...],
-    tail_length_mm: float,
-    smallest_bends_mm: tuple[float, ...],
-    turned_first: bool,
-) -> list[Exit]:
+def _chosen(room: _Room, groups: tuple[Group, ...], ways: list[Iterator[Exit]]) -> list[Exit]:
     """Take the first place with room for each circuit; as many as there are such."""
-    room = _Room(layout)
     found: list[Exit] = []
-    for group, smallest in zip(groups, smallest_bends_mm, strict=True):
-        bend = max(smallest, LEAST_BEND_MM)
-        bends = (bend, None) if turned_first else (None, bend)
-        places = _places(layout, group, bends)
-        chosen = next((one for one in places if room.holds(one, tail_length_mm)), None)
+    for group, places in zip(groups, ways, strict=True):
+        own = np.array(group.loops)
+        chosen = next((one for one in places if room.holds(one, own)), None)
         if chosen is None:
             break
-        room.take(chosen, tail_length_mm)
+        room.take(chosen)
         found.append(chosen)
     return found
 
@@ -87,41 +88,44 @@ def _chosen(
 class _Room:
     """The loops, and the tails that are laid already."""
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: Layout, tail_length_mm: float, clear_mm: float) -> None:
         self._layout = layout
-        self._centre = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops])
+        self._tail_length_mm = tail_length_mm
+        self._clear_mm = clear_mm
         self._radius = np.array([loop.radius_mm for loop in layout.loops])
-        self._tree = STRtree(np.asarray(points(self._centre), dtype=np.object_))
+        centres = points(np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops]))
+        self._tree = STRtree(np.asarray(centres, dtype=np.object_))
         self._tails: list[LineString] = []
 
-    def holds(self, place: Exit, tail_length_mm: float) -> bool:
+    def holds(self, place: Exit, own: Indices) -> bool:
         """Whether both tails are clear of loops and tails."""
         return all(
-            self._clear_of_loops(tail, place.loop)
+            self._clear_of_loops(tail, place.loop, own)
             and all(tail.distance(other) >= TAIL_CLEAR_MM for other in self._tails)
-            for tail in self._lines(place, tail_length_mm)
+            for tail in self._lines(place)
         )
 
-    def take(self, place: Exit, tail_length_mm: float) -> None:
+    def take(self, place: Exit) -> None:
         """Lay both tails."""
-        self._tails.extend(self._lines(place, tail_length_mm))
+        self._tails.extend(self._lines(place))
 
-    def _lines(self, place: Exit, tail_length_mm: float) -> list[LineString]:
+    def _lines(self, place: Exit) -> list[LineString]:
         loop = self._layout.loops[place.loop]
-        both = tail_pieces(loop, place.angle_rad, tail_length_mm, place.bend_mm)
+        both = tail_pieces(loop, place.angle_rad, self._tail_length_mm, place.bend_mm)
         return [WirePath(pieces).line_string(_CHORD_MM) for pieces in both]
 
-    def _clear_of_loops(self, tail: LineString, own: int) -> bool:
-        reach = TAIL_CLEAR_MM + _CHORD_MM
-        near = self._tree.query(tail, predicate="dwithin", distance=reach + self._radius.max())
-        near = near[near != own]
+    def _clear_of_loops(self, tail: LineString, start: int, own: Indices) -> bool:
+        reach = self._clear_mm + _CHORD_MM + self._radius.max()
+        near = self._tree.query(tail, predicate="dwithin", distance=reach)
+        near = near[near != start]
         if not near.size:
             return True
         gap = np.array([tail.distance(point) for point in self._tree.geometries[near]])
-        return bool(np.all(gap - self._radius[near] >= reach))
+        clear = np.where(np.isin(near, own), TAIL_CLEAR_MM, self._clear_mm)
+        return bool(np.all(gap - self._radius[near] >= clear + _CHORD_MM))
 
 
-def _places(layout: Layout, group: Group, bends_mm: tuple[float | None, ...]) -> Iterator[Exit]:
+def _ways(layout: Layout, group: Group, bend_mm: float, turned_first: bool) -> Iterator[Exit]:
     """Outermost loops of a group: all of its side, bend by bend, before those elsewhere."""
     angle = 2 * pi * np.arange(DIRECTIONS) / DIRECTIONS
     alignment = np.round(np.cos(angle - FACING_RAD[group.side]), 9)
@@ -132,7 +136,7 @@ def _places(layout: Layout, group: Group, bends_mm: tuple[float | None, ...]) ->
     on_side = [k for k in order if alignment[k] >= LEAST_ALIGNMENT]
     elsewhere = order[len(on_side) :]
     for directions in (on_side, elsewhere):
-        for bend in bends_mm:
+        for bend in (bend_mm, None) if turned_first else (None, bend_mm):
             for k in directions:
                 yield from _outermost(group, place, float(angle[k]), bend)
 

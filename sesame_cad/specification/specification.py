@@ -43,8 +43,6 @@ class Specification(Section):
     fabric: FabricSection = Field(default=FabricSection(), description="the stretched fabric")
     wire: WireSection = Field(description="the shape-memory wire")
     layout: LayoutSection = Field(description="the arrangement of the loops")
-    wiring: WiringSection = Field(default=WiringSection(), description="which loops share a wire")
-    supply: SupplySection = Field(default=SupplySection(), description="what heats the wire")
     model: ModelSection = Field(
         default=ModelSection(), description="the mechanics behind the shape"
     )
@@ -56,6 +54,8 @@ class Specification(Section):
     )
     outline: OutlineSection = Field(default=OutlineSection(), description="where the fabric is cut")
     output: OutputSection = Field(default=OutputSection(), description="the files that are written")
+    wiring: WiringSection = Field(default=WiringSection(), description="which loops share a wire")
+    supply: SupplySection = Field(default=SupplySection(), description="what heats the wire")
 
     @model_validator(mode="after")
     def _goes_together(self) -> Specification:

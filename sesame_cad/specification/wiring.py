@@ -83,8 +83,9 @@ class WiringSection(Section):
         default=(),
         strict=False,  # TOML's lists are not tuples
         description=(
-            "the circuits in the order in which they are laid, each with its own wire and "
-            "terminals; every loop in one (cells: row and column from 1 at the bottom left; loops: "
-            "places in layout.circles from 0); without any, one wire runs through all loops"
+            "the circuits in the order in which they are laid, each with its name (a text), its "
+            "own wire and terminals; every loop in one (cells: row and column from 1 at the bottom "
+            "left; loops: places in layout.circles from 0); without any, one wire runs through "
+            "all loops"
         ),
     )
