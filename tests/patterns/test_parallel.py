@@ -48,6 +48,16 @@ def test_what_no_supply_drives_is_refused_with_the_numbers(room: float, most: in
         parallel_groups(square_grid(4, 4, 25.0), limits(room, most))
 
 
+def test_circuits_hang_together_where_rows_have_gaps() -> None:
+    """A U of loops: halves by whole rows would leave two legs in one circuit."""
+    hole = [(r, c) for r in (1, 2, 3) for c in (1, 2)]
+    layout = tangent_layout(lattice_loops(Lattice.GRID, 4, 4, 25.0, hole))
+    groups = parallel_groups(layout, limits(5.1))
+    assert [len(group.loops) for group in groups] == [5, 5]
+    for group in groups:
+        assert len(touching_groups(part_layout(layout, group.loops))) == 1
+
+
 def test_circuits_share_the_current() -> None:
     assert most_circuits(3.0, 1.0) == 3
     assert most_circuits(0.3, 0.1) == 3

@@ -152,9 +152,10 @@ def test_groups_apart_are_cut_apart(bench) -> None:
     outline = cut_outline(wiring, 0.3, 2.0, 1.0)
     assert len(outline.further) == 1
     assert check_outline(outline, wiring, 0.3, 2.0, plan) == ()
-    swapped = replace(outline, further=(outline.outside,))
-    (fault, *_) = check_outline(swapped, wiring, 0.3, 2.0, plan)
+    swapped = replace(outline, further=(*outline.further, outline.outside))
+    (fault,) = check_outline(swapped, wiring, 0.3, 2.0, plan)
     assert fault.rule == "cut-overlap"
+    assert "meets that of another" in fault.message
 
 
 def test_the_operator_is_told_each_wire(rows) -> None:
