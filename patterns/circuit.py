@@ -13,6 +13,9 @@ from patterns.path import WirePath
 
 CLOSING_TOLERANCE_MM = 1e-6
 
+Diameters = float | tuple[float, ...]
+"""One wire diameter in mm for all circuits, or one a circuit."""
+
 
 class CrossingKind(StrEnum):
     """Why two passes of the wire come together."""
@@ -56,12 +59,64 @@ class Circuit:
         tail. No stage passes a contact twice.
     crossings : tuple of Crossing
         Every point in which stages come together: all contacts, and the terminals.
+    tail_pieces : int
+        How many pieces make up each tail.
     """
 
     layout: Layout
     switches: tuple[int, ...]
     stages: tuple[WirePath, ...]
     crossings: tuple[Crossing, ...]
+    tail_pieces: int = 1
+
+    @property
+    def parts(self) -> tuple[Circuit, ...]:
+        """The circuits that this one is made of, in laying order: itself alone."""
+        return (self,)
+
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """What the operator calls each part."""
+        return ("all",)
+
+    @property
+    def part_loops(self) -> tuple[tuple[int, ...], ...]:
+        """The loops of each part, as indices into ``layout.loops``."""
+        return (tuple(range(len(self.layout.loops))),)
+
+    @property
+    def tails(self) -> tuple[WirePath, WirePath]:
+        """The tails, at which the wire comes and goes."""
+        first, last = self.stages[0].pieces, self.stages[-1].pieces
+        return WirePath(first[: self.tail_pieces]), WirePath(last[-self.tail_pieces :])
+
+    @cached_property
+    def part_of_stage(self) -> tuple[int, ...]:
+        """Which of the parts lays each stage."""
+        return tuple(k for k, part in enumerate(self.parts) for _ in part.stages)
+
+    def begins_wire(self, stage: int) -> bool:
+        """Whether a new wire begins with a stage."""
+        return stage == 0 or self.part_of_stage[stage - 1] != self.part_of_stage[stage]
+
+    def ends_wire(self, stage: int) -> bool:
+        """Whether a wire ends with a stage."""
+        return stage == len(self.stages) - 1 or self.begins_wire(stage + 1)
+
+    def stage_name(self, stage: int) -> str:
+        """Name a stage to the operator, as counted from 1."""
+        return f"stage {stage + 1}"
+
+    def of_stages(self, diameter_mm: Diameters) -> tuple[float, ...]:
+        """Wire diameter of each stage."""
+        if isinstance(diameter_mm, tuple):
+            return tuple(diameter_mm[part] for part in self.part_of_stage)
+        return (diameter_mm,) * len(self.stages)
+
+    def span_mm(self, part: int) -> tuple[float, float]:
+        """Where along all wire that of a part begins and ends."""
+        own = [k for k, of in enumerate(self.part_of_stage) if of == part]
+        return self.starts_mm[own[0]], self.starts_mm[own[-1]] + self.stages[own[-1]].length_mm
 
     @cached_property
     def wire(self) -> WirePath:
@@ -78,10 +133,20 @@ class Circuit:
         """Give the wire of all stages before one."""
         return WirePath(tuple(piece for path in self.stages[:stage] for piece in path.pieces))
 
-    def crossings_of(self, stage: int) -> tuple[Crossing, ...]:
-        """Give the crossings that the wire passes for the second time in a stage."""
+    def crossings_of(self, stage: int, part: int | None = None) -> tuple[Crossing, ...]:
+        """Give the crossings that the wire passes for the second time in a stage.
+
+        Parameters
+        ----------
+        part
+            Only those at which the wire that is passed for the first time is that of a part.
+        """
         ends = (*self.starts_mm, np.inf)
-        return tuple(c for c in self.crossings if ends[stage] < c.second_mm <= ends[stage + 1])
+        found = (c for c in self.crossings if ends[stage] < c.second_mm <= ends[stage + 1])
+        if part is None:
+            return tuple(found)
+        begin, end = self.span_mm(part)
+        return tuple(c for c in found if begin < c.first_mm < end)
 
     @property
     def wire_length_mm(self) -> float:

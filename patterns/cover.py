@@ -25,8 +25,9 @@ def covers(
     clear_mm: float,
     wire_diameter_mm: float,
     stitching: Stitching,
+    part: int = 0,
 ) -> list[Vectors]:
-    """Cover every crossing that a stage passes second, from the end of the laid wire backward.
+    """Cover every crossing that a stage passes second on the wire of one circuit, backward.
 
     Parameters
     ----------
@@ -35,7 +36,11 @@ def covers(
     laid
         The wire of all stages before it, which the needle must miss.
     clear_mm
-        Smallest distance of the needle from a centreline.
+        Smallest distance of the needle from the centreline that is covered.
+    wire_diameter_mm
+        Distance of the centrelines of the two wires where they touch.
+    part
+        Which circuit's wire is covered.
 
     Returns
     -------
@@ -48,7 +53,9 @@ def covers(
     PatternError
         As `patterns.couching.needle_points`.
     """
-    spans = cover_spans_mm(circuit, stage, wire_diameter_mm, stitching).tolist()
+    spans = cover_spans_mm(circuit, stage, wire_diameter_mm, stitching, part).tolist()
+    if not spans:
+        return []
     spans.sort(reverse=True)
     stations = [_stations(begin, end, stitching.cover_spacing_mm) for begin, end in spans]
     sides = [sides_with_locks(alternate_sides(len(own))) for own in stations]
@@ -59,15 +66,17 @@ def covers(
 
 
 def cover_spans_mm(
-    circuit: Circuit, stage: int, wire_diameter_mm: float, stitching: Stitching
+    circuit: Circuit, stage: int, wire_diameter_mm: float, stitching: Stitching, part: int = 0
 ) -> Lengths:
     """Where along the laid wire each cover begins and ends (n, 2), in the order of the crossings.
 
     A cover reaches one stitch past the last point at which the surface of the wire of the stage,
-    that is laid next, is nearer than ``cover_reach_mm``, or to the end of the laid wire.
+    that is laid next, is nearer than ``cover_reach_mm``, or to an end of that wire.
     """
     near_mm = wire_diameter_mm + stitching.cover_reach_mm
-    crossing = np.array([c.first_mm for c in circuit.crossings_of(stage)], dtype=float)
+    crossing = np.array([c.first_mm for c in circuit.crossings_of(stage, part)], dtype=float)
+    begin, end = circuit.span_mm(part)
+    laid = (begin, min(end, circuit.starts_mm[stage]))
     wire = circuit.laid_before(stage)
     edge = _edges(
         wire,
@@ -75,9 +84,10 @@ def cover_spans_mm(
         np.repeat(crossing, 2),
         np.tile([-stitching.cover_spacing_mm, stitching.cover_spacing_mm], len(crossing)),
         near_mm,
+        ends_mm=laid,
     ).reshape(-1, 2)
     beyond = edge + np.array([-stitching.cover_spacing_mm, stitching.cover_spacing_mm])
-    return np.clip(beyond, 0.0, wire.length_mm)
+    return np.clip(beyond, *laid)
 
 
 def _stations(begin_mm: float, end_mm: float, spacing_mm: float) -> Lengths:
@@ -86,16 +96,22 @@ def _stations(begin_mm: float, end_mm: float, spacing_mm: float) -> Lengths:
 
 
 def _edges(
-    path: WirePath, other: LaidWire, start_mm: Lengths, step_mm: Lengths, near_mm: float
+    path: WirePath,
+    other: LaidWire,
+    start_mm: Lengths,
+    step_mm: Lengths,
+    near_mm: float,
+    *,
+    ends_mm: tuple[float, float],
 ) -> Lengths:
     """March from each start until the other wire is no longer near, then close in on the edge."""
-    length = path.length_mm
+    begin, end = ends_mm
     inside, outside = start_mm.copy(), start_mm.copy()
     marching = np.arange(len(start_mm))
     while marching.size:
         inside[marching] = outside[marching]
-        outside[marching] = np.clip(inside[marching] + step_mm[marching], 0.0, length)
-        within = (outside[marching] > 0.0) & (outside[marching] < length)
+        outside[marching] = np.clip(inside[marching] + step_mm[marching], begin, end)
+        within = (outside[marching] > begin) & (outside[marching] < end)
         marching = marching[within & _is_near(path, other, outside[marching], near_mm)]
     while np.any(np.abs(outside - inside) > EDGE_TOLERANCE_MM):
         middle = (inside + outside) / 2

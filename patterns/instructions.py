@@ -17,33 +17,30 @@ MARKS_TEXT = "Thread head, a thread that stands out against the fabric: the regi
 
 @dataclass(frozen=True)
 class Instructions:
-    """Words for the blocks of a circuit.
+    """Words for the blocks of one circuit or several.
 
     Attributes
     ----------
     circuit : Circuit
-    wire_diameter_mm : float
+    diameters_mm : tuple of float
+        Wire diameter of each stage.
     satin : sequence of sequences of arrays (n, 2)
         Needle points in mm of the covers before the second stage, the third, and so on.
     """
 
     circuit: Circuit
-    wire_diameter_mm: float
+    diameters_mm: tuple[float, ...]
     satin: Sequence[Sequence[Vectors]]
 
     def wire(self, stage: int) -> str:
         """Before a stage of the wire."""
-        laid = f"{self._name(stage)} of the wire is laid."
-        if stage == 0:
-            slack = max(self._slack_mm(later) for later in range(1, self._count))
-            return (
-                f"Wire head: load at least {ceil(self.circuit.wire_length_mm)} mm of "
-                f"{self.wire_diameter_mm:g} mm wire, both tails included, and {slack} mm of slack. "
-                f"Let {FREE_TAIL_MM:g} mm of wire stand out behind the needle, for the crimp. "
-                f"{laid}"
-            )
-        text = f"Wire head, the same wire: take the slack back. {laid}"
-        if stage < self._count - 1:
+        whose = "" if len(self.circuit.parts) > 1 else " of the wire"
+        laid = f"{self._name(stage)}{whose} is laid."
+        if self.circuit.begins_wire(stage):
+            text = f"{self._load(stage)} {laid}"
+        else:
+            text = f"Wire head, the same wire: take the slack back. {laid}"
+        if not self.circuit.ends_wire(stage):
             return text
         return (
             f"{text} Then cut the wire {FREE_TAIL_MM:g} mm beyond the last stitch, and crimp both "
@@ -53,18 +50,41 @@ class Instructions:
     def cover(self, stage: int) -> str:
         """Before the cover on which a stage will lie."""
         count = len(self.satin[stage - 1])
+        satin = (
+            f"Thread head, cover thread: satin on the laid wire for "
+            f"{self._lowered(self._name(stage))}, {count} crossing{'s' if count > 1 else ''}."
+        )
+        if self.circuit.begins_wire(stage):
+            return satin
         return (
             f"Do not cut the wire: pull out at least {self._slack_mm(stage)} mm of slack and hold "
-            f"it clear of the needle. Thread head, cover thread: satin on the laid wire for "
-            f"{self._name(stage).lower()}, {count} crossing{'s' if count > 1 else ''}."
+            f"it clear of the needle. {satin}"
         )
 
-    @property
-    def _count(self) -> int:
-        return len(self.circuit.stages)
+    def _load(self, stage: int) -> str:
+        """Mount the wire that begins with a stage."""
+        part = self.circuit.part_of_stage[stage]
+        slack = max((self._slack_mm(later) for later in self._own(stage)[1:]), default=0)
+        return (
+            f"Wire head: load at least {ceil(self.circuit.parts[part].wire_length_mm)} mm of "
+            f"{self.diameters_mm[stage]:g} mm wire, both tails included, and {slack} mm of slack. "
+            f"Let {FREE_TAIL_MM:g} mm of wire stand out behind the needle, for the crimp."
+        )
+
+    def _own(self, stage: int) -> list[int]:
+        """Stages of the wire that a stage is of."""
+        of_stage = self.circuit.part_of_stage
+        return [k for k, part in enumerate(of_stage) if part == of_stage[stage]]
 
     def _name(self, stage: int) -> str:
-        return f"Stage {stage + 1} of {self._count}"
+        """Name a stage as "Stage 1 of 2", and its circuit if it has a name."""
+        number, _, circuit = self.circuit.stage_name(stage).partition(" of ")
+        name = f"{number.capitalize()} of {len(self._own(stage))}"
+        return f"{name} of {circuit}" if circuit else name
+
+    @staticmethod
+    def _lowered(name: str) -> str:
+        return name[:1].lower() + name[1:]
 
     def _slack_mm(self, stage: int) -> int:
         """How far the cover's needle goes from where the wire hangs."""

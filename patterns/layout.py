@@ -116,6 +116,25 @@ def check_tangent(layout: Layout) -> None:
     PatternError
         The message names the pair of loops and how far apart they are.
     """
+    check_spaced(layout)
+    reached = _reached(layout)
+    missed = [k for k in range(len(layout.loops)) if k not in reached]
+    if missed:
+        raise PatternError(
+            f"one wire cannot run through all loops: {len(missed)} of {len(layout.loops)} are "
+            f"apart from loop 0; {nearest_pair_text(layout.loops, sorted(reached), missed)}; let "
+            'them touch, or give each group of touching loops its own wire: wiring.split = "groups"'
+        )
+
+
+def check_spaced(layout: Layout) -> None:
+    """Refuse loops that nearly touch.
+
+    Raises
+    ------
+    PatternError
+        The message names the pair of loops and how far apart they are.
+    """
     centre = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops]).reshape(-1, 2)
     radius = np.array([loop.radius_mm for loop in layout.loops])
     touching = {(contact.first, contact.second) for contact in layout.contacts}
@@ -126,13 +145,6 @@ def check_tangent(layout: Layout) -> None:
                 f"are only {gap:.4f} mm apart: let them touch, or move them at least "
                 f"{NEARLY_MM:g} mm apart"
             )
-    reached = _reached(layout)
-    missed = [k for k in range(len(layout.loops)) if k not in reached]
-    if missed:
-        raise PatternError(
-            f"one wire cannot run through all loops: {len(missed)} of {len(layout.loops)} are "
-            f"apart from loop 0; {nearest_pair_text(layout.loops, sorted(reached), missed)}"
-        )
 
 
 def nearest_pair_text(loops: tuple[Loop, ...], some: list[int], others: list[int]) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely import (
     LineString,
+    MultiPolygon,
     Point,
     Polygon,
     STRtree,
@@ -18,11 +19,11 @@ from shapely import (
 )
 from shapely.geometry.base import BaseGeometry
 
-from patterns.circuit import Circuit
+from patterns.circuit import Circuit, Diameters
 from patterns.edge_clearance import edge_clearance_mm
 from patterns.errors import PatternError
 from patterns.layout import Layout
-from patterns.path import Line
+from patterns.path import Line, Piece, WirePath
 from patterns.wire_index import WireIndex
 
 CHORD_TOLERANCE_MM = 0.01
@@ -46,15 +47,41 @@ class Outline:
         Counter-clockwise.
     openings : tuple of Ring
         Clockwise: the fabric between the loops that goes away.
+    further : tuple of Ring
+        Outside lines of further pieces of fabric, when circuits lie apart; counter-clockwise.
     """
 
     outside: Ring
     openings: tuple[Ring, ...]
+    further: tuple[Ring, ...] = ()
+
+    @property
+    def outsides(self) -> tuple[Ring, ...]:
+        """The outside line of every piece of fabric."""
+        return (self.outside, *self.further)
 
     @property
     def rings(self) -> tuple[Ring, ...]:
-        """All cut lines, the outside first."""
-        return (self.outside, *self.openings)
+        """All cut lines, the outsides first."""
+        return (*self.outsides, *self.openings)
+
+    @property
+    def bounds_mm(self) -> tuple[float, float, float, float]:
+        """Box (xmin, ymin, xmax, ymax) around all fabric."""
+        corners = np.concatenate(self.outsides)
+        (left, bottom), (right, top) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+        return left, bottom, right, top
+
+    def fabric(self) -> MultiPolygon:
+        """Give the fabric that is left, a polygon a piece."""
+        pieces = [Polygon(ring) for ring in self.outsides]
+        openings = [Polygon(ring) for ring in self.openings]
+        return MultiPolygon(
+            [
+                Polygon(piece.exterior, [hole.exterior for hole in openings if piece.covers(hole)])
+                for piece in pieces
+            ]
+        )
 
     def edges_mm(self) -> tuple[Ring, Ring]:
         """Starts and ends (n, 2) of the straight edges of all rings, in order."""
@@ -63,7 +90,7 @@ class Outline:
 
 
 def cut_outline(
-    circuit: Circuit, wire_diameter_mm: float, margin_mm: float, corner_radius_mm: float
+    circuit: Circuit, wire_diameter_mm: Diameters, margin_mm: float, corner_radius_mm: float
 ) -> Outline:
     """Leave the fabric in and around the loops and along the tails; cut the rest away.
 
@@ -71,8 +98,8 @@ def cut_outline(
     ----------
     circuit : Circuit
         The wire.
-    wire_diameter_mm : float
-        Its diameter.
+    wire_diameter_mm : float or tuple of float
+        Its diameter; of several circuits, the thickest counts.
     margin_mm : float
         Least fabric between the wire's surface and a cut.
     corner_radius_mm : float
@@ -84,12 +111,13 @@ def cut_outline(
         When a quantity is out of range, or an opening that loops enclose would vanish; the message
         gives the largest margin that leaves it.
     """
-    _check_quantities(wire_diameter_mm, margin_mm, corner_radius_mm)
-    clearance = wire_diameter_mm / 2 + margin_mm
+    thickest = max(circuit.of_stages(wire_diameter_mm))
+    _check_quantities(thickest, margin_mm, corner_radius_mm)
+    clearance = thickest / 2 + margin_mm
     wire = WireIndex(circuit.wire)
     for excess in (_FIRST_EXCESS_MM, CHORD_TOLERANCE_MM):
         fabric = _fabric(circuit, clearance + excess, corner_radius_mm)
-        _check_openings(circuit.layout, fabric, wire_diameter_mm, corner_radius_mm)
+        _check_openings(circuit.layout, fabric, thickest, corner_radius_mm)
         outline = _outline(fabric)
         if edge_clearance_mm(*outline.edges_mm(), wire, 2 * clearance).min() >= clearance:
             return outline
@@ -108,7 +136,7 @@ def _check_quantities(wire_diameter_mm: float, margin_mm: float, corner_radius_m
         )
 
 
-def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> Polygon:
+def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> list[Polygon]:
     """Grow discs and tails by clearance and corner radius, and shrink by the corner radius.
 
     The result holds everything within the clearance, and its inner corners are round.
@@ -116,13 +144,14 @@ def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> P
     grown = clearance_mm + corner_radius_mm
     parts = [
         _disc(loop.x_mm, loop.y_mm, loop.radius_mm + grown) for loop in circuit.layout.loops
-    ] + [_grown_line(piece, grown) for piece in circuit.wire.pieces if isinstance(piece, Line)]
+    ] + [_grown(piece, grown) for piece in _tail_pieces(circuit)]
     fabric: BaseGeometry = union_all(parts)
     if corner_radius_mm > 0:
         fabric = fabric.buffer(-corner_radius_mm, quad_segs=_quarter_steps(corner_radius_mm))
-    if not isinstance(fabric, Polygon) or fabric.is_empty:
+    pieces = [piece for piece in get_parts(fabric).tolist() if not piece.is_empty]
+    if not 0 < len(pieces) <= len(circuit.parts):
         raise PatternError("the fabric falls apart: the wire does not hold all loops together")
-    return fabric
+    return sorted(pieces, key=lambda piece: piece.bounds)
 
 
 def _quarter_steps(radius_mm: float) -> int:
@@ -137,17 +166,31 @@ def _disc(x_mm: float, y_mm: float, radius_mm: float) -> BaseGeometry:
     return Point(x_mm, y_mm).buffer(radius_mm / np.cos(np.pi / 4 / steps), quad_segs=steps)
 
 
-def _grown_line(line: Line, clearance_mm: float) -> BaseGeometry:
+def _tail_pieces(circuit: Circuit) -> list[Piece]:
+    return [piece for part in circuit.parts for tail in part.tails for piece in tail.pieces]
+
+
+def _grown(piece: Piece, clearance_mm: float) -> BaseGeometry:
+    """Polygon around everything within the clearance of a line or arc."""
+    if isinstance(piece, Line):
+        centreline = LineString([(piece.x0_mm, piece.y0_mm), (piece.x1_mm, piece.y1_mm)])
+    else:
+        centreline = WirePath((piece,)).line_string(_CHORD_MM)
+        clearance_mm += _CHORD_MM
     steps = _quarter_steps(clearance_mm)
-    ends = LineString([(line.x0_mm, line.y0_mm), (line.x1_mm, line.y1_mm)])
-    return ends.buffer(clearance_mm / np.cos(np.pi / 4 / steps), quad_segs=steps)
+    return centreline.buffer(clearance_mm / np.cos(np.pi / 4 / steps), quad_segs=steps)
 
 
-def _outline(fabric: Polygon) -> Outline:
-    outside = np.array(fabric.exterior.normalize().coords)[:-1]
-    openings = (np.array(ring.normalize().coords)[:-1] for ring in fabric.interiors)
+def _outline(fabric: list[Polygon]) -> Outline:
+    outside, *further = (np.array(one.exterior.normalize().coords)[:-1] for one in fabric)
+    holes = (ring for one in fabric for ring in one.interiors)
+    openings = (np.array(ring.normalize().coords)[:-1] for ring in holes)
     ordered = sorted(openings, key=lambda ring: (ring[:, 1].min(), ring[:, 0].min()))
-    return Outline(_turned(outside, 1), tuple(_turned(ring, -1) for ring in ordered))
+    return Outline(
+        _turned(outside, 1),
+        tuple(_turned(ring, -1) for ring in ordered),
+        tuple(_turned(ring, 1) for ring in further),
+    )
 
 
 def _turned(ring: Ring, sense: int) -> Ring:
@@ -158,11 +201,11 @@ def _turned(ring: Ring, sense: int) -> Ring:
 
 
 def _check_openings(
-    layout: Layout, fabric: Polygon, wire_diameter_mm: float, corner_radius_mm: float
+    layout: Layout, fabric: list[Polygon], wire_diameter_mm: float, corner_radius_mm: float
 ) -> None:
     """Find an opening in every face of the touching graph."""
     faces = _faces(layout)
-    tree = STRtree([Polygon(ring) for ring in fabric.interiors])
+    tree = STRtree([Polygon(ring) for one in fabric for ring in one.interiors])
     open_faces = set(tree.query(faces, predicate="intersects")[0].tolist()) if faces else set()
     closed = [face for k, face in enumerate(faces) if k not in open_faces]
     if not closed:

@@ -26,6 +26,10 @@ _Preference = Callable[[float, _Choice, set[int]], tuple[float, ...]]
 def fewest_stages_tree(graph: Touching, loop: int, start_rad: float) -> tuple[int, ...]:
     """Choose a spanning tree of the touching graph.
 
+    Whatever the tree, the wire passes every contact twice and goes once around every loop: each
+    contact needs one cover, and the wire is as long as the loops are around, and its tails. What
+    the tree decides is in how many stages it is laid.
+
     Every leaf of the tree needs a split of its own, for the wire passes its one switch twice while
     it goes around the leaf, so trees of few branches are tried: serpentines along both axes,
     spirals, and the way into the narrowest place. If none is as good as can be, the best is

@@ -42,3 +42,8 @@ class Stitching:
     mark_size_mm: float = 8.0
     mark_gap_mm: float = 6.0
     smallest_bend_diameters: float = 25.0
+
+    @property
+    def largest_cover_gap_mm(self) -> float:
+        """Cover stitches that cross a wire farther apart than this leave it bare in between."""
+        return 1.5 * self.cover_spacing_mm + 2 * ROUNDING_MM

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, groupby, pairwise
-from math import cos, pi, sin, tau
+from math import pi, tau
 
 import networkx as nx
 import numpy as np
@@ -13,9 +13,10 @@ import numpy as np
 from patterns.circuit import Circuit, Crossing, CrossingKind
 from patterns.errors import PatternError
 from patterns.grid import serpentine, square_grid
-from patterns.layout import Layout, Loop, nearest_pair_text
-from patterns.path import Arc, Line, Piece, Vectors, WirePath
+from patterns.layout import Layout, nearest_pair_text
+from patterns.path import Arc, Piece, Vectors, WirePath
 from patterns.splits import Passes, split_points_mm
+from patterns.tails import tail_pieces
 from patterns.touching import CLOCKWISE, Touching, check_start, touching
 
 START = -1
@@ -52,6 +53,8 @@ def single_circuit(
     start_loop: int,
     start_rad: float,
     tail_length_mm: float,
+    *,
+    bend_mm: float | None = None,
 ) -> Circuit:
     """Run one wire through every loop, with a straight tail at each end.
 
@@ -67,7 +70,9 @@ def single_circuit(
     start_loop, start_rad
         Loop and angle of the terminals; the wire sets out clockwise.
     tail_length_mm
-        Length of each tail, tangent to the start loop.
+        Length of the straight part of each tail.
+    bend_mm
+        Radius with which the tails turn outward from the tangent; none leaves them on it.
 
     Raises
     ------
@@ -82,16 +87,18 @@ def single_circuit(
     steps = tuple(_walk(graph, frozenset(switches), start_loop, start_rad))
     ends = [*accumulate(layout.loops[s.loop].radius_mm * abs(s.sweep_rad) for s in steps)]
     passes = _passes(steps, ends)
-    point, tangent = _on_circle(layout.loops[start_loop], start_rad, CLOCKWISE)
-    tail = tail_length_mm * tangent
+    comes, goes = tail_pieces(layout.loops[start_loop], start_rad, tail_length_mm, bend_mm)
     stages = _stages(_arcs(layout, steps), split_points_mm(passes, ends[-1]))
-    stages[0].insert(0, _line(point - tail, point))
-    stages[-1].append(_line(point, point + tail))
+    stages[0][:0] = comes
+    stages[-1].extend(goes)
+    point, _ = goes[0].at(np.zeros(1))
+    tail_mm = sum(piece.length_mm for piece in goes)
     return Circuit(
         layout,
         switches,
         tuple(WirePath(tuple(stage)) for stage in stages),
-        tuple(_crossings(layout, passes, point, ends[-1], tail_length_mm)),
+        tuple(_crossings(layout, passes, point[0], ends[-1], tail_mm)),
+        len(goes),
     )
 
 
@@ -142,18 +149,6 @@ def _walk(
         if contact in switches:
             loop, sense = graph.beyond[loop][contact], -sense
             here = graph.angle_rad[loop][contact]
-
-
-def _on_circle(loop: Loop, angle_rad: float, sense: int) -> tuple[Vectors, Vectors]:
-    """Point and unit tangent, each (2,), at an angle of a loop."""
-    outward = np.array([cos(angle_rad), sin(angle_rad)])
-    tangent = sense * np.array([-outward[1], outward[0]])
-    return np.array([loop.x_mm, loop.y_mm]) + loop.radius_mm * outward, tangent
-
-
-def _line(start: Vectors, end: Vectors) -> Line:
-    (x0, y0), (x1, y1) = start.tolist(), end.tolist()
-    return Line(x0, y0, x1, y1)
 
 
 def _passes(steps: tuple[_Step, ...], ends: list[float]) -> list[tuple[float, float]]:

@@ -13,8 +13,8 @@ from patterns.layout import Loop
 TAIL_CLEAR_MM = 2.0
 """Least distance of the tails from all other loops: room for the stitches of both wires."""
 
-_DIRECTIONS = 72
-_LEAST_ALIGNMENT = 0.5 - 1e-9
+DIRECTIONS = 72
+LEAST_ALIGNMENT = 0.5 - 1e-9
 """Cosine of the largest angle between a side and the direction in which the terminals face."""
 
 
@@ -28,7 +28,7 @@ class Side(StrEnum):
     BOTTOM = "bottom"
 
 
-_FACING_RAD = {
+FACING_RAD = {
     Side.CORNER: 5 * pi / 4,
     Side.LEFT: pi,
     Side.RIGHT: 0.0,
@@ -48,12 +48,12 @@ def terminals(loops: tuple[Loop, ...], side: Side) -> tuple[int, float]:
     PatternError
         When no such place faces the side within 60 degrees.
     """
-    angle = pi * np.arange(_DIRECTIONS) / (_DIRECTIONS / 2)
+    angle = pi * np.arange(DIRECTIONS) / (DIRECTIONS / 2)
     facing = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    alignment = np.round(np.cos(angle - _FACING_RAD[side]), 9)
+    alignment = np.round(np.cos(angle - FACING_RAD[side]), 9)
     place = np.array([(loop.x_mm, loop.y_mm, loop.radius_mm) for loop in loops])
     for k in np.argsort(-alignment, kind="stable"):
-        if alignment[k] < _LEAST_ALIGNMENT:
+        if alignment[k] < LEAST_ALIGNMENT:
             break
         reach = place[:, :2] @ facing[k] + place[:, 2]
         outermost = int(np.argmax(reach))

@@ -46,13 +46,16 @@ class WireIndex:
     ----------
     path : WirePath
         The wire's centreline.
+    farther_mm : array (pieces,) or float, optional
+        How much farther along the wire places of each piece are counted than the lengths of the
+        pieces make it: of several wires, the gaps from one to the next.
     """
 
-    def __init__(self, path: WirePath) -> None:
+    def __init__(self, path: WirePath, farther_mm: Numbers | float = 0.0) -> None:
         self.length_mm = path.length_mm
         self.pieces = path.pieces
         self._length = np.array([piece.length_mm for piece in path.pieces])
-        self._start = np.cumsum(self._length) - self._length
+        self._start = np.cumsum(self._length) - self._length + farther_mm
         self._curvature = np.array([piece.curvature_per_mm for piece in path.pieces])
         rows = np.array([_numbers(piece) for piece in path.pieces])
         self._anchor, self._angle = rows[:, :2], rows[:, 2]

@@ -6,10 +6,15 @@ from collections import Counter
 from typing import Any
 
 from patterns.circuit import CrossingKind
-from patterns.electrics import resistance_ohm
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
 from sesame_cad.answer_data import solve_account
+from sesame_cad.electrics_data import (
+    circuit_resistances_ohm,
+    circuits_data,
+    electrics_data,
+    in_parallel_ohm,
+)
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.specification import Specification
 from sesame_cad.state import State
@@ -43,6 +48,8 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         "reading": spec.model.reading,
         **_shape_data(design),
         "circuit": circuit_data(spec, design.pattern),
+        "circuits": circuits_data(spec, design.pattern),
+        "electrics": electrics_data(spec, design.pattern),
         "stitch": stitch_data(design.pattern.plan, records),
         "outline": {
             "openings": len(design.pattern.outline.openings),
@@ -117,14 +124,18 @@ def _omitted_data(omitted: tuple[OmittedTerm, ...]) -> list[Data]:
 
 
 def circuit_data(spec: Specification, laid: Pattern) -> Data:
-    """Keys of the circuit; which crossings are covered is read from the stitches."""
-    circuit, length, diameter = laid.circuit, laid.circuit.wire_length_mm, spec.wire.diameter_mm
+    """Keys of all wire together; which crossings are covered is read from the stitches.
+
+    The resistance is that of all circuits in parallel.
+    """
+    circuit = laid.circuit
     insulated = Counter(c.kind for c in covered_crossings(spec, laid))
     contacts = sum(c.kind is CrossingKind.CONTACT for c in circuit.crossings)
+    cold, hot = zip(*circuit_resistances_ohm(spec, circuit), strict=True)
     return {
-        "wire_length_mm": length,
-        "resistance_ohm_cold": resistance_ohm(length, diameter, spec.wire.resistivity_cold_uohm_cm),
-        "resistance_ohm_hot": resistance_ohm(length, diameter, spec.wire.resistivity_hot_uohm_cm),
+        "wire_length_mm": circuit.wire_length_mm,
+        "resistance_ohm_cold": in_parallel_ohm(cold),
+        "resistance_ohm_hot": in_parallel_ohm(hot),
         "contacts": contacts,
         "covered_contacts": insulated[CrossingKind.CONTACT],
         "terminal_crossings": len(circuit.crossings) - contacts,

@@ -12,20 +12,23 @@ from typing import TypeVar
 import numpy as np
 
 from patterns.circuit import Circuit, Crossing
+from patterns.electrics import resistance_ohm
 from patterns.errors import PatternError
 from patterns.layout import tangent_layout
-from patterns.one_wire import one_wire
+from patterns.net import Kind, SewnNet, sewn_net
 from patterns.outline import Outline, cut_outline
 from patterns.plan import StitchPlan
 from patterns.registration import Mark, registration_marks
 from patterns.rules import check_outline, check_plan
 from patterns.rules.insulation import check_insulation
+from patterns.rules.net import check_net
 from patterns.rules.subject import Subject
 from patterns.stitch_plan import stitch_plan
 from patterns.violation import Violation
 from sesame_cad.errors import InputError
 from sesame_cad.specification import Specification
 from sesame_cad.state import State, solve_state
+from sesame_cad.wiring import wired
 from solver.errors import SceneError
 
 Result = TypeVar("Result")
@@ -41,12 +44,15 @@ class Pattern:
     outline : Outline
     marks : tuple of Mark
     plan : StitchPlan
+    net : SewnNet
+        What the stitches alone connect.
     """
 
     circuit: Circuit
     outline: Outline
     marks: tuple[Mark, ...]
     plan: StitchPlan
+    net: SewnNet
 
 
 @dataclass(frozen=True)
@@ -115,21 +121,30 @@ def _refusing(spec: Specification, work: Callable[[], Result]) -> Result:
 
 def _pattern(spec: Specification) -> Pattern:
     stitching, machine = spec.patterns_stitching(), spec.patterns_machine()
-    wire_mm = spec.wire.diameter_mm
+    wire_mm = spec.diameters_mm
     layout = tangent_layout(spec.layout.loops(), spec.layout.tolerance_mm)
-    circuit = one_wire(layout, spec.layout.side, stitching.tail_length_mm)
+    circuit = wired(spec, layout)
     outline = cut_outline(circuit, wire_mm, spec.outline.margin_mm, spec.outline.corner_radius_mm)
-    low, high = outline.outside.min(axis=0), outline.outside.max(axis=0)
-    bounds = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
-    marks = registration_marks(bounds, stitching.mark_size_mm, stitching.mark_gap_mm)
+    marks = registration_marks(outline.bounds_mm, stitching.mark_size_mm, stitching.mark_gap_mm)
     plan = stitch_plan(circuit, stitching, machine, wire_mm, marks)
+    net = net_of_stitches(spec, circuit, plan)
     violations = (
         *check_plan(circuit, plan, machine, stitching, wire_mm),
+        *check_net(circuit, net),
         *check_outline(outline, circuit, wire_mm, spec.outline.margin_mm, plan),
     )
     if violations:
         raise InputError(*_first_of_each_rule(spec, violations))
-    return Pattern(circuit, outline, marks, plan)
+    return Pattern(circuit, outline, marks, plan, net)
+
+
+def net_of_stitches(spec: Specification, circuit: Circuit, plan: StitchPlan) -> SewnNet:
+    """Rebuild the electrical net of cold wire from a plan, made or read from a file."""
+    kinds = tuple(
+        Kind(wire.diameter_mm, resistance_ohm(1.0, wire.diameter_mm, wire.resistivity_cold_uohm_cm))
+        for wire in spec.wires(len(circuit.parts))
+    )
+    return sewn_net(plan, kinds, spec.patterns_stitching().largest_cover_gap_mm)
 
 
 def _first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) -> Iterator[str]:
@@ -148,7 +163,7 @@ def covered_crossings(spec: Specification, laid: Pattern) -> tuple[Crossing, ...
         laid.plan,
         spec.patterns_machine(),
         spec.patterns_stitching(),
-        spec.wire.diameter_mm,
+        spec.diameters_mm,
     )
     bare = check_insulation(subject)
     crossings = laid.circuit.crossings

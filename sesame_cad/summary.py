@@ -22,6 +22,8 @@ def print_design(data: Data, folder: Path) -> None:
                     f"[yellow]warning[/]: {name}: {left['term']} is left out, and matters: "
                     f"{left['measure']} = {left['value']:.3g}"
                 )
+    for warning in data["electrics"]["warnings"]:
+        console.print(f"[yellow]warning[/]: {warning}", soft_wrap=True)
     if shown:
         console.print(_grid(_model_rows(data)))
         console.print(_states(data))
@@ -109,6 +111,7 @@ def _workshop_rows(data: Data) -> list[tuple[str, str]]:
             f"{circuit['resistance_ohm_cold']:.2f} Ω cold, "
             f"{circuit['resistance_ohm_hot']:.2f} Ω hot",
         ),
+        *_electrics_rows(data),
         ("stages of the wire", f"{circuit['stages']}"),
         ("contacts covered", f"{circuit['covered_contacts']} of {circuit['contacts']}"),
         (
@@ -118,6 +121,21 @@ def _workshop_rows(data: Data) -> list[tuple[str, str]]:
         ),
         ("openings to cut", f"{data['outline']['openings']}"),
     ]
+
+
+def _electrics_rows(data: Data) -> list[tuple[str, str]]:
+    """Say what each circuit needs, with its wire where there are several."""
+    rows: list[tuple[str, str]] = []
+    for made, driven in zip(data["circuits"], data["electrics"]["circuits"], strict=True):
+        needs = (
+            f"{driven['current_A']:.2f} A at {driven['voltage_V']:.1f} V, "
+            f"{driven['power_W']:.1f} W hot"
+        )
+        if len(data["circuits"]) == 1:
+            return [("to heat it", needs)]
+        wire = f"{made['wire_length_mm']:.0f} mm of {made['wire_diameter_mm']:g} mm wire"
+        rows.append((f"circuit {made['name']}", f"{len(made['loops'])} loops, {wire}, {needs}"))
+    return rows
 
 
 def _grid(rows: list[tuple[str, str]]) -> Table:

@@ -19,6 +19,7 @@ from patterns.outline import Outline
 from patterns.plan import UNITS_PER_MM, StitchPlan
 from patterns.records import Records, plan_from_records, plan_records
 from patterns.rules import check_plan
+from patterns.rules.net import check_net
 from patterns.rules.outline import check_outline
 from sesame_cad.design_data import FORMAT_VERSION, design_data
 from sesame_cad.errors import DesignFileError, InputError
@@ -28,7 +29,7 @@ from sesame_cad.files.embroidery import read_embroidery
 from sesame_cad.files.stl import read_stl
 from sesame_cad.files.svg import read_outline_svg
 from sesame_cad.package import file_data
-from sesame_cad.pipeline import Design, design
+from sesame_cad.pipeline import Design, design, net_of_stitches
 from sesame_cad.specification import specification_from
 from sesame_cad.staging import DESIGN_FILE
 from solver.errors import NotConvergedError
@@ -242,9 +243,10 @@ def _rule_faults(records: Records, made: Design) -> Faults:
         plan,
         spec.patterns_machine(),
         spec.patterns_stitching(),
-        spec.wire.diameter_mm,
+        spec.diameters_mm,
     )
-    for _, of_rule in groupby(violations, key=lambda violation: violation.rule):
+    net = check_net(made.pattern.circuit, net_of_stitches(spec, made.pattern.circuit, plan))
+    for _, of_rule in groupby((*violations, *net), key=lambda violation: violation.rule):
         yield from _limited(map(str, of_rule), MOST_OF_A_RULE)
 
 
@@ -270,12 +272,12 @@ def _check_cut(reading: _Reading) -> Faults:
         if not _same_lines(strokes, expected):
             yield f"{path}: the registration marks are not those of the stitch file"
         margin = spec.outline.margin_mm - OUTLINE_TOLERANCE_MM
-        for fault in check_outline(outline, laid.circuit, spec.wire.diameter_mm, margin, laid.plan):
+        for fault in check_outline(outline, laid.circuit, spec.diameters_mm, margin, laid.plan):
             yield f"{path}: {fault}"
 
 
 def _outline_faults(outline: Outline, expected: Outline) -> Faults:
-    if not _same_lines([outline.outside], [expected.outside]):
+    if not _same_lines(outline.outsides, expected.outsides):
         yield "the outside is not the one that was designed"
     if not _same_lines(outline.openings, expected.openings):
         yield "the openings are not the ones that were designed"

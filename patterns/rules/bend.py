@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from patterns.path import WirePath
 from patterns.rules.subject import Subject
 from patterns.violation import Violation
 
@@ -13,10 +14,10 @@ _LARGEST_KINK = 1e-3
 
 def check_bend_radius(subject: Subject) -> list[Violation]:
     """No bend is tighter than the smallest radius, in wire diameters, that the settings give."""
-    allowed = subject.stitching.smallest_bend_diameters * subject.wire_diameter_mm
     message = "the wire is bent too tightly: radius"
     faults: list[Violation] = []
-    for piece in subject.circuit.wire.pieces:
+    for piece, stage in zip(subject.circuit.wire.pieces, subject.stage_of_piece, strict=True):
+        allowed = subject.stitching.smallest_bend_diameters * subject.diameters_mm[stage]
         if abs(piece.curvature_per_mm) * allowed > 1 + 1e-9:
             middle, _ = piece.at(np.array([piece.length_mm / 2]))
             radius = 1 / abs(piece.curvature_per_mm)
@@ -26,9 +27,13 @@ def check_bend_radius(subject: Subject) -> list[Violation]:
 
 
 def check_smooth_path(subject: Subject) -> list[Violation]:
-    """From terminal to terminal the wire has no jump and no kink, within and between its stages."""
-    pieces = subject.circuit.wire.pieces
-    gaps, kinks = subject.circuit.wire.joints()
+    """From terminal to terminal each wire has no jump and no kink, within and between stages."""
+    return [fault for part in subject.circuit.parts for fault in _check_smooth(part.wire)]
+
+
+def _check_smooth(wire: WirePath) -> list[Violation]:
+    pieces = wire.pieces
+    gaps, kinks = wire.joints()
     faults: list[Violation] = []
     for i in np.flatnonzero((gaps > _LARGEST_GAP_MM) | (kinks > _LARGEST_KINK)):
         start, _ = pieces[int(i) + 1].at(np.array([0.0]))

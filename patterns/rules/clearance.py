@@ -27,12 +27,18 @@ def check_needle_on_wire(subject: Subject) -> list[Violation]:
 
 def _strikes(subject: Subject, block: int, wire: NDArray[np.bool_]) -> list[Violation]:
     needles = subject.needles_mm[block]
-    allowed = subject.clearance_mm
-    distance = subject.wire.nearest(needles, allowed, among=wire).distance_mm
     message = "the needle strikes wire: too near to its centreline"
-    return [
-        subject.fault(
-            "needle-on-wire", message, block, int(i), actual=float(distance[i]), allowed=allowed
+    diameter = np.array(subject.diameters_mm)[subject.stage_of_piece]
+    faults: list[Violation] = []
+    for own in np.unique(diameter[wire]).tolist():
+        allowed = subject.clearance_mm(own)
+        distance = subject.wire.nearest(
+            needles, allowed, among=wire & (diameter == own)
+        ).distance_mm
+        faults.extend(
+            subject.fault(
+                "needle-on-wire", message, block, int(i), actual=float(distance[i]), allowed=allowed
+            )
+            for i in np.flatnonzero(distance < allowed - _ROUNDOFF_MM)
         )
-        for i in np.flatnonzero(distance < allowed - _ROUNDOFF_MM)
-    ]
+    return faults

@@ -82,8 +82,8 @@ def _places(subject: Subject, needles_mm: Vectors, stage: int) -> Nearest:
 def _astray(
     subject: Subject, block: int, nearest: Nearest, beside: NDArray[np.bool_]
 ) -> list[Violation]:
-    stage = subject.plan.blocks[block].stage + 1
-    message = f"the needle point is not beside the wire of stage {stage}: distance"
+    stage = subject.circuit.stage_name(subject.plan.blocks[block].stage)
+    message = f"the needle point is not beside the wire of {stage}: distance"
     distance, allowed = nearest.distance_mm, subject.reach_mm
     return [
         subject.fault(_RULE, message, block, int(i), actual=float(distance[i]), allowed=allowed)
@@ -143,8 +143,9 @@ def _rounding_mm(couching: _Couching) -> Numbers:
 def _check_ends(couching: _Couching, stage: int) -> list[Violation]:
     stages = couching.subject.stages
     interval = couching.subject.stitching.couching_interval_mm + 2 * ROUNDING_MM
-    starts = FREE_TAIL_MM if stage == 0 else 0.0
-    ends = FREE_TAIL_MM if stage == len(stages) - 1 else 0.0
+    circuit = couching.subject.circuit
+    starts = FREE_TAIL_MM if circuit.begins_wire(stage) else 0.0
+    ends = FREE_TAIL_MM if circuit.ends_wire(stage) else 0.0
     length = stages[stage].length_mm
     last = len(couching.station_mm) - 1
     bare_start = float(couching.station_mm[0])

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from patterns.path import Vectors
 from patterns.rules.near import near_stretches
 from patterns.rules.satin import satin_crossings
 from patterns.rules.subject import Subject
-from patterns.stitching import ROUNDING_MM
 from patterns.violation import Violation
 from patterns.wire_index import Indices, Numbers, WireIndex
 
@@ -30,16 +30,28 @@ def check_insulation(subject: Subject) -> list[Violation]:
         stretches, on_top = _meetings(subject, stage)
         for later in np.unique(on_top).tolist():
             between = block < subject.laying.get(later, len(subject.plan.blocks))
-            crossed = np.sort(station[between] - subject.circuit.starts_mm[stage])
+            crossed = np.sort(station[between] - subject.starts_mm[stage])
             faults.extend(_uncovered(subject, stage, later, stretches[on_top == later], crossed))
     return faults + _check_each_stage(subject)
 
 
 def _meetings(subject: Subject, stage: int) -> tuple[Vectors, Indices]:
     """Stretches (n, 2) of a stage that later stages come near to, and the first such stage (n,)."""
-    wire, start = subject.stages[stage], subject.circuit.starts_mm[stage]
     later = subject.stage_of_piece > stage
-    separation = subject.separation_mm
+    diameter = np.array(subject.diameters_mm)[subject.stage_of_piece]
+    found = [
+        _meeting(subject, stage, later & (diameter == one), subject.separation_mm(stage, one))
+        for one in np.unique(diameter[later]).tolist()
+    ]
+    stretches = np.concatenate([np.empty((0, 2)), *(own for own, _ in found)])
+    return stretches, np.concatenate([np.empty(0, dtype=np.int64), *(top for _, top in found)])
+
+
+def _meeting(
+    subject: Subject, stage: int, later: NDArray[np.bool_], separation: float
+) -> tuple[Vectors, Indices]:
+    """Give the same for some pieces of wire, all of one diameter."""
+    wire, start = subject.stages[stage], subject.starts_mm[stage]
     stretches = near_stretches(wire, subject.wire, -start, separation, later)
     on_top = np.full(len(stretches), len(subject.stages))
     for share in np.linspace(0.0, 1.0, _PLACES):
@@ -54,20 +66,31 @@ def _meetings(subject: Subject, stage: int) -> tuple[Vectors, Indices]:
 def _uncovered(
     subject: Subject, stage: int, later: int, stretches: Vectors, crossed: Numbers
 ) -> list[Violation]:
-    largest = 1.5 * subject.stitching.cover_spacing_mm + 2 * ROUNDING_MM
+    largest = subject.stitching.largest_cover_gap_mm
     message = (
-        f"short circuit: stages {stage + 1} and {later + 1} of the wire meet, and no cover "
+        f"short circuit: {_both(subject, stage, later)} of the wire meet, and no cover "
         f"stitches at most {largest:.2f} mm apart lie between them; bare length"
     )
     wire = subject.stages[stage]
     return [_fault(wire, bare, message) for bare in _bare(stretches, crossed, largest)]
 
 
+def _both(subject: Subject, stage: int, later: int) -> str:
+    """Name two stages, of one wire or of two."""
+    circuit = subject.circuit
+    if len(circuit.parts) == 1:
+        return f"stages {stage + 1} and {later + 1}"
+    return f"{circuit.stage_name(stage)} and {circuit.stage_name(later)}"
+
+
 def _check_each_stage(subject: Subject) -> list[Violation]:
     faults: list[Violation] = []
     for k, wire in enumerate(subject.stages):
-        message = f"short circuit: stage {k + 1} of the wire comes near itself; length"
-        stretches = near_stretches(wire, wire, 0.0, subject.separation_mm)
+        message = (
+            f"short circuit: {subject.circuit.stage_name(k)} of the wire comes near itself; length"
+        )
+        separation = subject.separation_mm(k, subject.diameters_mm[k])
+        stretches = near_stretches(wire, wire, 0.0, separation)
         faults.extend(_fault(wire, stretch, message) for stretch in stretches)
     return faults
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from patterns.circuit import Circuit
 from patterns.plan import BlockKind
 from patterns.rules.subject import Subject
 from patterns.violation import Violation
@@ -13,26 +14,30 @@ _Part = tuple[BlockKind, int]
 def check_blocks(subject: Subject) -> list[Violation]:
     """Check for marks (if any), then the stages with a cover before each but the first, in order.
 
-    Each must be there once, and nothing else.
+    Each must be there once, and nothing else; the cover before a further wire may be left out, for
+    that wire need not touch another.
     """
+    circuit = subject.circuit
     parts = [(block.kind, block.stage) for block in subject.plan.blocks]
-    order = _order(len(subject.circuit.stages))
+    order = _order(len(circuit.stages))
     faults = [
-        Violation(_RULE, f"{_name(part)} is missing: no block {part[0].value}", 0.0, 0.0)
+        Violation(_RULE, f"{_name(circuit, part)} is missing: no block {part[0].value}", 0.0, 0.0)
         for part in order[1:]
-        if part not in parts
+        if part not in parts and not (part[0] is BlockKind.COVER and circuit.begins_wire(part[1]))
     ]
     latest, latest_at = -1, 0
     for i, part in enumerate(parts):
         if part not in order:
-            faults.append(_fault(subject, i, f"{_name(part)} is none of the circuit's"))
+            faults.append(_fault(subject, i, f"{_name(circuit, part)} is none of the circuit's"))
             continue
         rank = order.index(part)
         if part in parts[:i]:
-            faults.append(_fault(subject, i, f"{_name(part)} is sewn a second time"))
+            faults.append(_fault(subject, i, f"{_name(circuit, part)} is sewn a second time"))
         elif rank < latest:
-            late = _name(parts[latest_at])
-            faults.append(_fault(subject, i, f"{_name(part)} is sewn too late, after {late}"))
+            late = _name(circuit, parts[latest_at])
+            faults.append(
+                _fault(subject, i, f"{_name(circuit, part)} is sewn too late, after {late}")
+            )
         if rank > latest:
             latest, latest_at = rank, i
     return faults
@@ -44,12 +49,14 @@ def _order(stages: int) -> list[_Part]:
     return [(BlockKind.MARKS, 0), *wires[1:]]
 
 
-def _name(part: _Part) -> str:
+def _name(circuit: Circuit, part: _Part) -> str:
     kind, stage = part
+    known = 0 <= stage < len(circuit.stages)
+    name = circuit.stage_name(stage) if known else f"stage {stage + 1}"
     names = {
         BlockKind.MARKS: "the registration marks",
-        BlockKind.COVER: f"the cover before stage {stage + 1} of the wire",
-        BlockKind.WIRE: f"stage {stage + 1} of the wire",
+        BlockKind.COVER: f"the cover before {name} of the wire",
+        BlockKind.WIRE: f"{name} of the wire",
     }
     return names[kind]
 

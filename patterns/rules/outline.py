@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 import numpy as np
-from shapely import LineString, Polygon, STRtree, contains_xy, linestrings, points, prepare
+from shapely import (
+    LineString,
+    MultiPolygon,
+    Polygon,
+    STRtree,
+    contains_xy,
+    linestrings,
+    points,
+    prepare,
+)
 from shapely import distance as distance_between
 
-from patterns.circuit import Circuit
+from patterns.circuit import Circuit, Diameters
 from patterns.edge_clearance import edge_clearance_mm
 from patterns.outline import Outline, Ring
 from patterns.path import Vectors
@@ -23,7 +32,7 @@ _ROUNDOFF_MM = 1e-9
 def check_outline(
     outline: Outline,
     circuit: Circuit,
-    wire_diameter_mm: float,
+    wire_diameter_mm: Diameters,
     margin_mm: float,
     plan: StitchPlan | None,
 ) -> tuple[Violation, ...]:
@@ -41,9 +50,11 @@ def check_outline(
     faults = faults or [*_check_senses(outline), *_check_overlap(outline)]
     if faults:
         return tuple(faults)
-    fabric = Polygon(outline.outside, outline.openings)
+    fabric = outline.fabric()
     prepare(fabric)
-    faults = _check_margin(outline, fabric, circuit, wire_diameter_mm, margin_mm)
+    faults = _check_margin(
+        outline, fabric, circuit, max(circuit.of_stages(wire_diameter_mm)), margin_mm
+    )
     if plan is not None:
         faults += _check_stitches(outline, fabric, plan)
     return tuple(faults)
@@ -65,18 +76,23 @@ def _check_senses(outline: Outline) -> list[Violation]:
     return [
         _at(ring[0], "cut-ring", message)
         for k, ring in enumerate(outline.rings)
-        if Polygon(ring).exterior.is_ccw != (k == 0)
+        if Polygon(ring).exterior.is_ccw != (k < len(outline.outsides))
     ]
 
 
 def _check_overlap(outline: Outline) -> list[Violation]:
-    """Openings lie inside the outside line, apart from it and from one another."""
+    """Openings lie inside an outside line, apart from it and from one another, as do outsides."""
+    pieces = [Polygon(ring) for ring in outline.outsides]
     openings = [Polygon(ring) for ring in outline.openings]
-    if not openings:
-        return []
-    outside = Polygon(outline.outside)
-    prepare(outside)
-    loose = [k for k, one in enumerate(openings) if not outside.contains_properly(one)]
+    first, second = STRtree(pieces).query(pieces, predicate="intersects")
+    across = sorted({int(j) for i, j in zip(first, second, strict=True) if i < j})
+    apart = "the outside line of one piece of fabric meets that of another"
+    faults = [_at(outline.outsides[k][0], "cut-overlap", apart) for k in across]
+    if not openings or faults:
+        return faults
+    inside, _ = STRtree(pieces).query(openings, predicate="within")
+    held = [k for k in inside.tolist() if any(one.contains_properly(openings[k]) for one in pieces)]
+    loose = sorted(set(range(len(openings))) - set(held))
     first, second = STRtree(openings).query(openings, predicate="intersects")
     again = sorted({int(j) for i, j in zip(first, second, strict=True) if i < j})
     beyond, twice = "an opening reaches the outside line", "an opening overlaps another one"
@@ -88,7 +104,7 @@ def _check_overlap(outline: Outline) -> list[Violation]:
 
 def _check_margin(
     outline: Outline,
-    fabric: Polygon,
+    fabric: MultiPolygon,
     circuit: Circuit,
     wire_diameter_mm: float,
     margin_mm: float,
@@ -106,14 +122,14 @@ def _check_margin(
     return faults
 
 
-def _check_crossed(fabric: Polygon, wire: LineString) -> list[Violation]:
+def _check_crossed(fabric: MultiPolygon, wire: LineString) -> list[Violation]:
     if fabric.contains(wire):
         return []
     place = np.array(wire.difference(fabric).representative_point().coords[0])
     return [_at(place, "cut-margin", "the wire does not lie on the fabric: a cut goes through it")]
 
 
-def _check_stitches(outline: Outline, fabric: Polygon, plan: StitchPlan) -> list[Violation]:
+def _check_stitches(outline: Outline, fabric: MultiPolygon, plan: StitchPlan) -> list[Violation]:
     edges = np.asarray(linestrings(np.stack(outline.edges_mm(), axis=1)), dtype=np.object_)
     tree = STRtree(edges)
     faults: list[Violation] = []
@@ -124,7 +140,9 @@ def _check_stitches(outline: Outline, fabric: Polygon, plan: StitchPlan) -> list
     return faults
 
 
-def _check_block(tree: STRtree, fabric: Polygon, block: int, needles: Vectors) -> list[Violation]:
+def _check_block(
+    tree: STRtree, fabric: MultiPolygon, block: int, needles: Vectors
+) -> list[Violation]:
     on_fabric = contains_xy(fabric, needles)
     distance = np.where(on_fabric, _to_cut_mm(tree, needles), 0.0)
     faults: list[Violation] = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from patterns.circuit import Circuit
+from patterns.circuit import Circuit, Diameters
 from patterns.machine import Machine
 from patterns.plan import StitchPlan
 from patterns.rules.bend import check_bend_radius, check_smooth_path
@@ -36,7 +36,7 @@ def check_plan(
     plan: StitchPlan,
     machine: Machine,
     stitching: Stitching,
-    wire_diameter_mm: float,
+    wire_diameter_mm: Diameters,
 ) -> tuple[Violation, ...]:
     """Check a stitch plan, as it will be sewn, against every rule.
 

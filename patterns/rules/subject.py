@@ -8,13 +8,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from patterns.circuit import Circuit
+from patterns.circuit import Circuit, Diameters
 from patterns.machine import Machine
 from patterns.path import Vectors
 from patterns.plan import UNITS_PER_MM, Block, StitchPlan
 from patterns.stitching import ROUNDING_MM, Stitching
 from patterns.violation import Violation
 from patterns.wire_index import Indices, WireIndex
+
+PARTING_MM = 100.0
+"""Places along all wire are counted so much farther where a new wire begins."""
 
 
 @dataclass(frozen=True)
@@ -25,12 +28,29 @@ class Subject:
     plan: StitchPlan
     machine: Machine
     stitching: Stitching
-    wire_diameter_mm: float
+    wire_diameter_mm: Diameters
+
+    @cached_property
+    def diameters_mm(self) -> tuple[float, ...]:
+        """Wire diameter of each stage."""
+        return self.circuit.of_stages(self.wire_diameter_mm)
+
+    @cached_property
+    def starts_mm(self) -> tuple[float, ...]:
+        """Where along all wire each stage starts; from one wire to the next there is a gap.
+
+        So places on two wires are never taken for one stretch of the same wire.
+        """
+        gaps = (PARTING_MM * part for part in self.circuit.part_of_stage)
+        return tuple(map(sum, zip(self.circuit.starts_mm, gaps, strict=True)))
 
     @cached_property
     def wire(self) -> WireIndex:
-        """The whole wire."""
-        return WireIndex(self.circuit.wire)
+        """All wire, places along it as in ``starts_mm``."""
+        return WireIndex(
+            self.circuit.wire,
+            PARTING_MM * np.array(self.circuit.part_of_stage)[self.stage_of_piece],
+        )
 
     @cached_property
     def stages(self) -> tuple[WireIndex, ...]:
@@ -62,20 +82,20 @@ class Subject:
         """Needle points (n, 2) of each block, all runs after one another."""
         return tuple(_needles_mm(block) for block in self.plan.blocks)
 
-    @property
-    def clearance_mm(self) -> float:
+    def clearance_mm(self, wire_diameter_mm: float) -> float:
         """Smallest distance between needle point and wire centreline at which they do not meet."""
-        return (self.wire_diameter_mm + self.machine.needle_diameter_mm) / 2
+        return (wire_diameter_mm + self.machine.needle_diameter_mm) / 2
 
     @property
     def reach_mm(self) -> float:
         """Farthest from the wire that a stitch still holds it: four half-widths of the couching."""
-        return 4 * (self.clearance_mm + self.stitching.needle_margin_mm) + ROUNDING_MM
+        thickest = self.clearance_mm(max(self.diameters_mm))
+        return 4 * (thickest + self.stitching.needle_margin_mm) + ROUNDING_MM
 
-    @property
-    def separation_mm(self) -> float:
-        """Distance of two centrelines below which a cover must lie between the wires."""
-        return self.wire_diameter_mm + self.stitching.cover_reach_mm
+    def separation_mm(self, stage: int, other_diameter_mm: float) -> float:
+        """Distance of a stage's centreline from another below which a cover must lie between."""
+        mean = (self.diameters_mm[stage] + other_diameter_mm) / 2
+        return mean + self.stitching.cover_reach_mm
 
     def fault(
         self,

@@ -41,7 +41,8 @@ def outline_dxf(outline: Outline, marks: tuple[Mark, ...]) -> str:
 def _draw(space: Modelspace, outline: Outline, marks: tuple[Mark, ...]) -> None:
     for ring in outline.openings:
         space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "HOLE"})
-    space.add_lwpolyline(outline.outside.tolist(), close=True, dxfattribs={"layer": "CUT"})
+    for ring in outline.outsides:
+        space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "CUT"})
     for mark in marks:
         for stroke in mark.strokes:
             space.add_lwpolyline(stroke.tolist(), dxfattribs={"layer": "MARK"})
@@ -68,11 +69,11 @@ def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
         if layer in ("CUT", "HOLE") and not line.closed:
             raise DesignFileError(f"a line on layer {layer} of the DXF is not closed")
     outside = [_points(line) for layer, line in lines if layer == "CUT"]
-    if len(outside) != 1:
-        raise DesignFileError(f"{len(outside)} lines on the DXF's layer CUT instead of one")
+    if not outside:
+        raise DesignFileError("0 lines on the DXF's layer CUT instead of one or more")
     openings = tuple(_points(line) for layer, line in lines if layer == "HOLE")
     strokes = tuple(_points(line) for layer, line in lines if layer == "MARK")
-    return Outline(outside[0], openings), strokes
+    return Outline(outside[0], openings, tuple(outside[1:])), strokes
 
 
 def _document() -> Drawing:

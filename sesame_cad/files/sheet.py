@@ -47,7 +47,7 @@ class Sheet:
 def lay_out(outline: Outline, marks: tuple[Mark, ...]) -> Sheet:
     """Choose a page around outline and marks, with the check bar below them."""
     strokes = [stroke for mark in marks for stroke in mark.strokes]
-    points = np.concatenate([outline.outside, *strokes])
+    points = np.concatenate([*outline.outsides, *strokes])
     left, bottom = np.floor(points.min(axis=0)) - MARGIN_MM
     right, top = np.ceil(points.max(axis=0)) + MARGIN_MM
     bar = np.array([(left + MARGIN_MM, bottom), (left + MARGIN_MM + CHECK_BAR_MM, bottom)])

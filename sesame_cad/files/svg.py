@@ -40,7 +40,7 @@ def outline_svg(outline: Outline, marks: tuple[Mark, ...], name: str) -> str:
     sheet = lay_out(outline, marks)
     root = _page(sheet, name)
     _layer(root, "HOLE", [_path(sheet, ring, closed=True) for ring in outline.openings])
-    _layer(root, "CUT", [_path(sheet, outline.outside, closed=True)])
+    _layer(root, "CUT", [_path(sheet, ring, closed=True) for ring in outline.outsides])
     strokes = [_path(sheet, stroke, closed=False) for mark in marks for stroke in mark.strokes]
     _layer(root, "MARK", strokes)
     _reference(root, sheet)
@@ -70,9 +70,11 @@ def read_outline_svg(data: bytes) -> tuple[Outline, Strokes]:
     for layer in ("CUT", "HOLE"):
         if not all(closed for _, closed in layers[layer]):
             raise DesignFileError(f"a line on layer {layer} of the SVG is not closed")
-    if len(layers["CUT"]) != 1:
-        raise DesignFileError(f"{len(layers['CUT'])} lines on the SVG's layer CUT instead of one")
-    outline = Outline(layers["CUT"][0][0], tuple(ring for ring, _ in layers["HOLE"]))
+    if not layers["CUT"]:
+        raise DesignFileError("0 lines on the SVG's layer CUT instead of one or more")
+    (outside, _), *further = layers["CUT"]
+    openings = tuple(ring for ring, _ in layers["HOLE"])
+    outline = Outline(outside, openings, tuple(ring for ring, _ in further))
     return outline, tuple(stroke for stroke, _ in layers["MARK"])
 
 

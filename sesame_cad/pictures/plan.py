@@ -26,6 +26,7 @@ COVER = "#009E73"
 NEEDLE, CUT, MARK = "#777777", "#555555", "#000000"
 
 _WIDTH_IN = 9.0
+_SAME_CENTRE_MM = 1e-3
 _ARROW_SHARE, _LARGEST_ARROW = 0.02, 0.25
 """Length of arrow heads as a share of the width, but at most this share of the smallest loop."""
 
@@ -55,12 +56,15 @@ def loops_in_order(circuit: Circuit) -> tuple[int, ...]:
     """Give the loops in the order in which the wire reaches them, stage by stage."""
     pieces = circuit.wire.pieces
     reached = (_loop_of(piece, circuit.layout) for piece in pieces if isinstance(piece, Arc))
-    return tuple(dict.fromkeys(reached))
+    return tuple(dict.fromkeys(loop for loop in reached if loop is not None))
 
 
-def _loop_of(arc: Arc, layout: Layout) -> int:
+def _loop_of(arc: Arc, layout: Layout) -> int | None:
+    """Loop that an arc runs on; none for the bend of a tail."""
     centres = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops])
-    return int(np.argmin(np.hypot(*(centres - (arc.centre_x_mm, arc.centre_y_mm)).T)))
+    away = np.hypot(*(centres - (arc.centre_x_mm, arc.centre_y_mm)).T)
+    loop = int(np.argmin(away))
+    return loop if away[loop] < _SAME_CENTRE_MM else None
 
 
 def _colour(stage: int) -> str:
@@ -69,18 +73,20 @@ def _colour(stage: int) -> str:
 
 def _figure_size(outline: Outline, marks: tuple[Mark, ...]) -> tuple[float, float]:
     strokes = [stroke for mark in marks for stroke in mark.strokes]
-    width, height = np.ptp(np.concatenate([outline.outside, *strokes]), axis=0)
+    width, height = np.ptp(np.concatenate([*outline.outsides, *strokes]), axis=0)
     # Room for the axis and for the legend underneath.
     return _WIDTH_IN, float(np.clip(_WIDTH_IN * height / width, 2.0, 2.0 * _WIDTH_IN)) + 1.0
 
 
 def _arrow_mm(circuit: Circuit, outline: Outline) -> float:
     loop_mm = min(loop.diameter_mm for loop in circuit.layout.loops)
-    return min(_ARROW_SHARE * float(np.ptp(outline.outside[:, 0])), _LARGEST_ARROW * loop_mm)
+    return min(
+        _ARROW_SHARE * (outline.bounds_mm[2] - outline.bounds_mm[0]), _LARGEST_ARROW * loop_mm
+    )
 
 
 def _draw_cut(axes: Axes, outline: Outline, marks: tuple[Mark, ...]) -> None:
-    rings = [np.concatenate([ring, ring[:1]]) for ring in (outline.outside, *outline.openings)]
+    rings = [np.concatenate([ring, ring[:1]]) for ring in outline.rings]
     axes.add_collection(LineCollection(rings, colors=CUT, linewidths=0.6, label="cut line"))
     strokes = [stroke for mark in marks for stroke in mark.strokes]
     if strokes:
@@ -136,12 +142,15 @@ def _draw_numbers(axes: Axes, circuit: Circuit) -> None:
 
 
 def _draw_ends(axes: Axes, circuit: Circuit) -> None:
-    last = len(circuit.stages) - 1
-    ends = (
-        (circuit.stages[0], 0.0, "start", _colour(0)),
-        *((circuit.stages[k], 0.0, f"stage {k + 1}", CUT) for k in range(1, last + 1)),
-        (circuit.stages[last], circuit.stages[last].length_mm, "end", _colour(last)),
-    )
+    begins = [circuit.begins_wire(k) for k in range(len(circuit.stages))]
+    ends = [
+        (path, 0.0, "start" if begins[k] else f"stage {k + 1}", _colour(k) if begins[k] else CUT)
+        for k, path in enumerate(circuit.stages)
+    ] + [
+        (path, path.length_mm, "end", _colour(k))
+        for k, path in enumerate(circuit.stages)
+        if circuit.ends_wire(k)
+    ]
     for path, place_mm, text, colour in ends:
         point, along = path.at(place_mm)
         axes.plot(*point[0], "o", color=colour, markersize=5, zorder=7)

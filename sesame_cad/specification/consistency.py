@@ -17,6 +17,8 @@ from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.toml_text import number_text
 from sesame_cad.specification.wire import WireSection
+from sesame_cad.specification.wiring import WiringSection
+from sesame_cad.specification.wiring_faults import circuit_faults
 
 ROUNDING = 1e-9
 """Limits met to within this (relative) are met: 25 × 2 × 0.3 may exceed 15 in the last digit."""
@@ -28,6 +30,7 @@ class Together:
 
     wire: WireSection
     layout: LayoutSection
+    wiring: WiringSection
     stitching: StitchingSection
     machine: MachineSection
     outline: OutlineSection
@@ -163,6 +166,8 @@ def _loop_name(layout: LayoutSection) -> str:
 
 def _small_hoop(sections: Together) -> Iterator[Fault]:
     machine, layout = sections.machine, sections.layout
+    if sections.wiring.split != "none" or sections.wiring.circuits:
+        return  # where several pairs of tails leave is known when the wires are laid
     known = layout.diameters_mm
     if not known or min(known) <= sections.wire.diameter_mm or not layout.loops():
         return  # that is said elsewhere
@@ -231,5 +236,11 @@ _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str
         ),
     ),
     (_thick_preview, (_DIAMETER, _PREVIEW)),
+    (
+        lambda sections: circuit_faults(
+            sections.wiring, sections.layout, sections.wire, sections.stitching
+        ),
+        (("wiring", "circuits"), ("wiring", "split"), _KIND, _ROWS, _COLUMNS, _MISSING, _SHAPE),
+    ),
 )
 """Each check with the keys that it needs."""

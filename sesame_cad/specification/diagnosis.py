@@ -21,6 +21,7 @@ from sesame_cad.specification.section import Section
 from sesame_cad.specification.specification import Specification, sections
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.wire import WireSection
+from sesame_cad.specification.wiring import WiringSection
 
 SectionT = TypeVar("SectionT", bound=Section)
 
@@ -103,12 +104,13 @@ def _faults_between(
             return section.model_construct(**given)  # pyright: ignore[reportArgumentType]
 
     together = Together(
-        sound("wire", WireSection),
-        sound("layout", LayoutSection),
-        sound("stitching", StitchingSection),
-        sound("machine", MachineSection),
-        sound("outline", OutlineSection),
-        sound("output", OutputSection),
+        wire=sound("wire", WireSection),
+        layout=sound("layout", LayoutSection),
+        wiring=sound("wiring", WiringSection),
+        stitching=sound("stitching", StitchingSection),
+        machine=sound("machine", MachineSection),
+        outline=sound("outline", OutlineSection),
+        output=sound("output", OutputSection),
     )
     return inconsistencies(together, found)
 

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from patterns.circuit import Diameters
 from patterns.machine import Machine
 from patterns.stitching import Stitching
 from sesame_cad.specification.consistency import Together, inconsistencies
@@ -18,8 +19,10 @@ from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.section import Allowed, Section
 from sesame_cad.specification.stitching import StitchingSection
+from sesame_cad.specification.supply import SupplySection
 from sesame_cad.specification.toml_text import number_text, toml_value
 from sesame_cad.specification.wire import WireSection
+from sesame_cad.specification.wiring import WiringSection
 
 PREVIEW_WIRE_DIAMETERS = 0.8
 """The preview's fabric is no thicker than this, so that its edge stays inside the wire."""
@@ -51,11 +54,19 @@ class Specification(Section):
     )
     outline: OutlineSection = Field(default=OutlineSection(), description="where the fabric is cut")
     output: OutputSection = Field(default=OutputSection(), description="the files that are written")
+    wiring: WiringSection = Field(default=WiringSection(), description="which loops share a wire")
+    supply: SupplySection = Field(default=SupplySection(), description="what heats the wire")
 
     @model_validator(mode="after")
     def _goes_together(self) -> Specification:
         together = Together(
-            self.wire, self.layout, self.stitching, self.machine, self.outline, self.output
+            wire=self.wire,
+            layout=self.layout,
+            wiring=self.wiring,
+            stitching=self.stitching,
+            machine=self.machine,
+            outline=self.outline,
+            output=self.output,
         )
         faults = inconsistencies(together)
         if faults:
@@ -68,6 +79,22 @@ class Specification(Section):
         if self.output.preview_thickness_mm is not None:
             return self.output.preview_thickness_mm
         return min(self.fabric.thickness_mm, PREVIEW_WIRE_DIAMETERS * self.wire.diameter_mm)
+
+    @property
+    def current_A(self) -> float:  # noqa: N802 - the unit's own spelling
+        """The current with which a circuit is heated, in A."""
+        return self.wire.design_current_A
+
+    @property
+    def diameters_mm(self) -> Diameters:
+        """Wire diameter of all circuits, or of each of those that are given one by one."""
+        own = tuple(one.wire(self.wire).diameter_mm for one in self.wiring.circuits)
+        return own or self.wire.diameter_mm
+
+    def wires(self, count: int) -> tuple[WireSection, ...]:
+        """Give the wires of so many circuits."""
+        own = tuple(one.wire(self.wire) for one in self.wiring.circuits)
+        return own or (self.wire,) * count
 
     def patterns_machine(self) -> Machine:
         """Give the machine as the geometry knows it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from patterns.electrics import one_second_current_A
 from sesame_cad.specification.section import Section
 
 LARGEST_MODULUS_GPA = 2000.0
@@ -44,3 +45,17 @@ class WireSection(Section):
     density_g_cm3: float = Field(
         default=6.45, ge=0.1, le=25, description="the wire's density in g/cm3"
     )
+    current_A: float | None = Field(  # noqa: N815 - the unit's own spelling
+        default=None,
+        gt=0,
+        le=1000,
+        description=(
+            "the current in A with which a circuit is heated; when left out, that which heats "
+            "nickel-titanium wire of the diameter in one second in still air"
+        ),
+    )
+
+    @property
+    def design_current_A(self) -> float:  # noqa: N802 - the unit's own spelling
+        """The current with which a circuit is heated, in A."""
+        return one_second_current_A(self.diameter_mm) if self.current_A is None else self.current_A

@@ -1,0 +1,200 @@
+"""Where couched wire runs, rebuilt from the needle points alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely import STRtree, get_coordinates, linestrings, points
+
+from patterns.locks import POINTS_PER_LOCK
+from patterns.path import Vectors
+from patterns.stitching import ROUNDING_MM
+
+STEP_MM = 0.5
+"""Rebuilt wire is a row of points no farther apart than this."""
+
+_ROUNDS = 3
+"""Tangents and centreline are improved from one another so often."""
+
+_WIDER = 1.15
+"""Stitches wider than the usual one by this factor reach over wire that was laid before."""
+
+_SMALLEST_MM = 1e-9
+
+_OPEN_MM = 2 * ROUNDING_MM
+"""Distances that differ by less may be equal before they are rounded."""
+
+_FEWEST = 2 * POINTS_PER_LOCK + 3
+
+Numbers = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Strand:
+    """Wire that one block lays, as rebuilt.
+
+    Attributes
+    ----------
+    block : int
+        Index of the block in the plan.
+    points_mm : array (n, 2)
+        Along the centreline, about `STEP_MM` apart.
+    station_mm : array (n,)
+        Length along the strand.
+    """
+
+    block: int
+    points_mm: Vectors
+    station_mm: Numbers
+
+    def segments(self) -> NDArray[np.object_]:
+        """Straight pieces (n - 1,) from point to point, as shapely lines."""
+        return segments(self.points_mm)
+
+
+def segments(points_mm: Vectors) -> NDArray[np.object_]:
+    """Straight pieces (n - 1,) of a row of points (n, 2), as shapely lines."""
+    ends = np.stack([points_mm[:-1], points_mm[1:]], axis=1)
+    return np.asarray(linestrings(ends), dtype=np.object_)
+
+
+def sewn_strand(block: int, needles_mm: Vectors, earlier: STRtree) -> Strand:
+    """Rebuild the centreline between the needle points of a couching.
+
+    The needle goes in on both sides of the wire in turn, as far from it on the one as on the other
+    unless it has to reach over wire that was laid before; then only the other side tells where the
+    wire runs. Stitches that do not zigzag are taken for the wire itself, for some machines swing
+    the head on their own.
+
+    Parameters
+    ----------
+    needles_mm
+        Needle points (n, 2) in the order of sewing, locks included.
+    earlier
+        Straight pieces of the wire that was laid before.
+    """
+    locked = len(needles_mm) >= _FEWEST
+    row = needles_mm[POINTS_PER_LOCK:-POINTS_PER_LOCK] if locked else needles_mm
+    if len(row) > 2 and _zigzags(row):
+        row = _centreline(row, ~_reaching_over(row, earlier))
+    dense = _smooth(row)
+    station = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
+    return Strand(block, dense, station)
+
+
+def _cross(a: Vectors, b: Vectors) -> Numbers:
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
+def _zigzags(row: Vectors) -> bool:
+    """Whether stitches turn left and right in turn, mostly."""
+    step = np.diff(row, axis=0)
+    turn = _cross(step[:-1], step[1:])
+    return len(turn) < 2 or float(np.mean(turn[:-1] * turn[1:] < 0)) > 0.5
+
+
+def _reaching_over(needles: Vectors, earlier: STRtree) -> Flags:
+    """Which needle points may lie beyond earlier wire.
+
+    Of a stitch across such wire that end does which is nearer to it, for there it keeps the
+    clearance; both may when rounding leaves it open.
+    """
+    beyond = np.zeros(len(needles), dtype=np.bool_)
+    stitch = np.unique(earlier.query(segments(needles), predicate="intersects")[0])
+    if stitch.size:
+        away = _distances(needles, np.union1d(stitch, stitch + 1), earlier)
+        begin, end = away[stitch], away[stitch + 1]
+        beyond[stitch[begin < end + _OPEN_MM]] = True
+        beyond[stitch[end < begin + _OPEN_MM] + 1] = True
+    beyond[[0, -1]] = False  # where the strand begins and ends is known only from these
+    return beyond
+
+
+def _distances(needles: Vectors, which: NDArray[np.int64], tree: STRtree) -> Numbers:
+    """Distance of some needle points to the pieces in a tree; of the others infinite."""
+    places = np.asarray(points(needles[which]), dtype=np.object_)
+    pairs, distance = tree.query_nearest(places, return_distance=True, all_matches=False)
+    result = np.full(len(needles), np.inf)
+    result[which[pairs[0]]] = distance
+    return result
+
+
+def crossing_share(lines: NDArray[np.object_], others: NDArray[np.object_]) -> Numbers:
+    """Share of the way along each line at which another one crosses it, pair by pair."""
+    (a, b), (c, d) = _ends(lines), _ends(others)
+    across = _cross(b - a, d - c)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = _cross(c - a, d - c) / across
+    return np.clip(np.where(across == 0, 0.5, share), 0.0, 1.0)
+
+
+def _ends(lines: NDArray[np.object_]) -> tuple[Vectors, Vectors]:
+    ends = get_coordinates(lines).reshape(-1, 2, 2)
+    return ends[:, 0], ends[:, 1]
+
+
+def _centreline(needles: Vectors, sound: Flags) -> Vectors:
+    """Move sound needle points square to the wire by the usual half-width of the couching."""
+    along = np.empty_like(needles)
+    along[1:-1] = needles[2:] - needles[:-2]
+    along[0], along[-1] = along[1], along[-2]
+    along = _unit(along)
+    step = np.diff(needles, axis=0)
+    across = np.empty_like(needles)
+    across[1:-1] = step[:-1] - step[1:]
+    across[0], across[-1] = -step[0], step[-1]
+    side = np.sign(_cross(along, across))
+    half = _half_width_mm(step, along)
+    centre, tangent = needles[sound], along[sound]
+    for _ in range(_ROUNDS):
+        left = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
+        centre = needles[sound] - half * side[sound, None] * left
+        tangent = _tangents(centre)
+    return centre
+
+
+def _half_width_mm(step: Vectors, tangent: Vectors) -> float:
+    half = np.abs(_cross(_unit(tangent[:-1] + tangent[1:]), step)) / 2
+    usual = float(np.quantile(half, 0.3))
+    return float(np.mean(half[half <= _WIDER * usual]))
+
+
+def _tangents(row: Vectors) -> Vectors:
+    """Unit tangents of the parabolas through every three points of a row."""
+    step = np.diff(row, axis=0)
+    if len(step) < 2:
+        return _unit(np.broadcast_to(row[-1] - row[0], row.shape))
+    size = np.maximum(np.hypot(step[:, 0], step[:, 1]), _SMALLEST_MM)[:, None]
+    slope = step / size
+    inner = (size[1:] * slope[:-1] + size[:-1] * slope[1:]) / (size[1:] + size[:-1])
+    first, last = 2 * slope[0] - inner[0], 2 * slope[-1] - inner[-1]
+    return _unit(np.concatenate([first[None], inner, last[None]]))
+
+
+def _unit(vectors: Vectors) -> Vectors:
+    size = np.hypot(vectors[:, 0], vectors[:, 1])[:, None]
+    return vectors / np.where(size > 0, size, 1.0)
+
+
+def _smooth(row: Vectors) -> Vectors:
+    """Points of cubic Hermite pieces through a row of points."""
+    if len(row) < 3:
+        return row
+    tangent = _tangents(row)
+    chord = np.hypot(*np.diff(row, axis=0).T)
+    count = np.maximum(np.ceil(chord / STEP_MM), 1).astype(np.int64)
+    piece = np.repeat(np.arange(len(chord)), count)
+    first = np.repeat(np.cumsum(count) - count, count)
+    u = ((np.arange(len(piece)) - first) / count[piece])[:, None]
+    size = chord[piece][:, None]
+    start, end = row[piece], row[piece + 1]
+    curve = (
+        (1 + 2 * u) * (1 - u) ** 2 * start
+        + u * (1 - u) ** 2 * size * tangent[piece]
+        + u**2 * (3 - 2 * u) * end
+        - u**2 * (1 - u) * size * tangent[piece + 1]
+    )
+    return np.concatenate([curve, row[-1:]])
