@@ -10,6 +10,7 @@ from patterns.electrics import resistance_ohm
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
 from sesame_cad.answer_data import solve_account
+from sesame_cad.files.stitch_formats import LOSSES
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.specification import Specification
 from sesame_cad.state import State
@@ -44,6 +45,7 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         **_shape_data(design),
         "circuit": circuit_data(spec, design.pattern),
         "stitch": stitch_data(design.pattern.plan, records),
+        "losses": {kind: list(LOSSES[kind]) for kind in spec.output.formats},
         "outline": {
             "openings": len(design.pattern.outline.openings),
             "margin_mm": spec.outline.margin_mm,

@@ -49,6 +49,21 @@ class Pattern:
     plan: StitchPlan
 
 
+class BrokenRulesError(InputError):
+    """A pattern was laid, but must not be sewn.
+
+    Attributes
+    ----------
+    pattern : Pattern
+    violations : tuple of Violation
+    """
+
+    def __init__(self, laid: Pattern, violations: tuple[Violation, ...], *faults: str) -> None:
+        super().__init__(*faults)
+        self.pattern: Pattern = laid
+        self.violations: tuple[Violation, ...] = violations
+
+
 @dataclass(frozen=True)
 class Design:
     """Everything that follows from a specification.
@@ -72,7 +87,8 @@ def pattern(spec: Specification) -> Pattern:
     Raises
     ------
     InputError
-        When the array cannot be sewn or cut as specified.
+        When the array cannot be sewn or cut as specified; `BrokenRulesError` when it was laid, but
+        breaks a design rule.
     """
     return _refusing(spec, partial(_pattern, spec))
 
@@ -127,9 +143,10 @@ def _pattern(spec: Specification) -> Pattern:
         *check_plan(circuit, plan, machine, stitching, wire_mm),
         *check_outline(outline, circuit, wire_mm, spec.outline.margin_mm, plan),
     )
+    laid = Pattern(circuit, outline, marks, plan)
     if violations:
-        raise InputError(*_first_of_each_rule(spec, violations))
-    return Pattern(circuit, outline, marks, plan)
+        raise BrokenRulesError(laid, violations, *_first_of_each_rule(spec, violations))
+    return laid
 
 
 def _first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) -> Iterator[str]:

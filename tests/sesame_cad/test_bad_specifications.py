@@ -93,10 +93,14 @@ WRONG_VALUES = [
     ("model", 'reading = "plane stress"', 'must be one of "plane-stress", "published"'),
     (
         "output",
-        'formats = ["dst", "pes", "jef"]',
-        'must be a list, each item one of "dst", "exp", "u01"',
+        'formats = ["dst", "hus", "jef"]',
+        'must be a list, each item one of "dst", "exp", "u01", "pes", "jef", "vp3"',
     ),
-    ("output", 'formats = "dst"', 'must be a list, each item one of "dst", "exp", "u01"'),
+    (
+        "output",
+        'formats = "dst"',
+        'must be a list, each item one of "dst", "exp", "u01", "pes", "jef", "vp3"',
+    ),
     (
         "layout",
         "loop_diameter_mm = 24.9",

@@ -1,0 +1,16 @@
+"""In which order the wire reaches the loops."""
+
+from __future__ import annotations
+
+import shapely
+
+from patterns.circuit import Circuit
+from patterns.path import Arc
+
+
+def loops_in_order(circuit: Circuit) -> tuple[int, ...]:
+    """Give the loops in the order in which the wire reaches them, stage by stage."""
+    loops = shapely.STRtree(shapely.points([(one.x_mm, one.y_mm) for one in circuit.layout.loops]))
+    arcs = [piece for piece in circuit.wire.pieces if isinstance(piece, Arc)]
+    reached = loops.nearest(shapely.points([(arc.centre_x_mm, arc.centre_y_mm) for arc in arcs]))
+    return tuple(dict.fromkeys(reached.tolist()))
