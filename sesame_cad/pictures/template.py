@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from numpy.typing import NDArray
@@ -61,16 +62,21 @@ def template_page(laid: Pattern, name: str, size_mm: tuple[float, float]) -> Axe
     """
     fit = _fit(_strokes(laid), size_mm)
     axes = blank_page(*fit.size_mm)
-    _draw(axes, fit, [_closed(ring) for ring in laid.outline.rings], CUT, 0.5)
-    for k, stage in enumerate(laid.circuit.stages):
-        _draw(axes, fit, [stage.polyline(_CHORD_MM)], STAGES[k % len(STAGES)], 0.5)
-    _draw(axes, fit, [stroke for mark in laid.marks for stroke in mark.strokes], MARK, 0.5)
+    with rc_context({"path.simplify": False}):  # which moves lines by up to 0.04 mm
+        _draw_pattern(axes, fit, laid)
     _draw_centre(axes, fit)
     scale = "1:1, print without fitting to the page" if fit.scale == 1 else f"scale 1:{fit.scale}"
     top = fit.size_mm[1] - MARGIN_MM - 5.0
     write_text(axes, (MARGIN_MM, top), f"{name}: stretched outline, {scale}", 10.0, "bold")
     _draw_bar(axes)
     return axes
+
+
+def _draw_pattern(axes: Axes, fit: _Fit, laid: Pattern) -> None:
+    _draw(axes, fit, [_closed(ring) for ring in laid.outline.rings], CUT, 0.5)
+    for k, stage in enumerate(laid.circuit.stages):
+        _draw(axes, fit, [stage.polyline(_CHORD_MM)], STAGES[k % len(STAGES)], 0.5)
+    _draw(axes, fit, [stroke for mark in laid.marks for stroke in mark.strokes], MARK, 0.5)
 
 
 def _strokes(laid: Pattern) -> Vectors:

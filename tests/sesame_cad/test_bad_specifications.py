@@ -106,6 +106,7 @@ WRONG_VALUES = [
         "loop_diameter_mm = 24.9",
         "must be at least 25: a smaller loop bends wire of 0.5 mm to a radius below …",
     ),
+    ("output", 'paper = "a5"', 'must be one of "a4", "letter"'),
     ("output", "preview_thickness_mm = 0.6", "must be at most wire.diameter_mm = 0.5"),
 ]
 

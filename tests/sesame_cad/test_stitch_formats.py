@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from patterns.plan import BlockKind
-from patterns.records import plan_records
+from patterns.records import Records, plan_records
 from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.stitch_formats import FORMATS, LOSSES, write_embroidery
 from sesame_cad.pipeline import pattern
@@ -77,7 +77,7 @@ def test_another_library_reads_every_needle_point_and_block(sewn, kind):
 
 @pytest.mark.parametrize("kind", FORMATS)
 def test_the_same_bytes_every_time_and_day(sewn, kind, monkeypatch):
-    once = write_embroidery(*[sewn[0], kind, sewn[1]])
+    once = write_embroidery(sewn[0], kind, sewn[1])
 
     class Tomorrow(datetime):
         @classmethod
@@ -105,9 +105,8 @@ def _rgb(colour):
 
 def test_losses_that_are_told_are_those_that_are_seen(sewn):
     records, threads = sewn
-    found = {
-        kind: read_by_library(write_embroidery(records, kind, threads), kind) for kind in FORMATS
-    }
+    files = {kind: write_embroidery(records, kind, threads) for kind in FORMATS}
+    found = {kind: read_by_library(data, kind) for kind, data in files.items()}
     jumps = {k: sum(c & 0xFF == pystitch.JUMP for *_, c in f.stitches) for k, f in found.items()}
     stops = {k: sum(c & 0xFF == pystitch.STOP for *_, c in f.stitches) for k, f in found.items()}
     assert jumps["exp"] == jumps["u01"] == jumps["jef"] == int(np.sum(records.command == "jump"))
@@ -133,19 +132,24 @@ def test_before_a_run_the_thread_is_trimmed(sewn):
 
 
 def test_a_design_too_wide_for_pes_is_refused(sewn):
-    records, threads = sewn
-    moved = type(records)(
-        records.command, records.xy + np.linspace(0, 900, len(records.xy), dtype=int)[:, None]
-    )
-    with pytest.raises(InputError, match=r"PES has room for 204\.7 mm"):
-        write_embroidery(moved, "pes", threads)
+    reach = np.append(np.arange(0, 2080, 40), 2048)
+    command = np.array(["stitch"] * (len(reach) - 1) + ["end"])
+    records = Records(command, np.stack([reach, 0 * reach], axis=1))
+    with pytest.raises(InputError, match=r"reaches 204\.8 mm from its start; PES has room"):
+        write_embroidery(records, "pes", sewn[1][:1])
+
+
+def whole_file(sewn, kind, made={}):  # noqa: B006 - each once
+    if kind not in made:
+        made[kind] = write_embroidery(sewn[0], kind, sewn[1])
+    return made[kind]
 
 
 @pytest.mark.parametrize("kind", COLOURED)
 @settings(deadline=None, max_examples=100)
 @given(at=st.integers(0, 16_000), byte=st.integers(0, 255), cut=st.booleans())
 def test_a_spoiled_file_is_read_or_refused_in_one_line(sewn, kind, at, byte, cut):
-    whole = bytearray(write_embroidery(sewn[0], kind, sewn[1]))
+    whole = bytearray(whole_file(sewn, kind))
     at %= len(whole)
     if cut:
         del whole[at:]
