@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -20,6 +19,7 @@ from patterns.rules import check_plan
 from patterns.violation import Violation
 from sesame_cad.cut_checks import CUT_READERS, cut_faults
 from sesame_cad.design_data import FORMAT_VERSION, design_data
+from sesame_cad.differences import differences
 from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.block_list import block_list_csv
 from sesame_cad.files.dst import decode_dst
@@ -31,9 +31,6 @@ from sesame_cad.specification import specification_from
 from sesame_cad.specification.output import StitchFormat
 from sesame_cad.staging import DESIGN_FILE
 from solver.errors import NotConvergedError
-
-RELATIVE_TOLERANCE = 1e-6
-"""Numbers are made again on another machine at most this far off."""
 
 MOST_BYTES = 500_000_000
 """No file of a design is larger, and a larger one is not read."""
@@ -212,33 +209,7 @@ def _expected_files(made: Design) -> Iterator[str]:
 def _check_numbers(reading: _Reading) -> Faults:
     """Numbers in `design.json` are those that follow from its specification."""
     expected = design_data(reading.made, reading.records, reading.data["files"])
-    yield from _differences(reading.data, expected, DESIGN_FILE)
-
-
-ACCOUNT = frozenset({"seconds", "steps", "factorizations", "gradient_norm", "height_change"})
-"""Keys that tell how a number was found; they may differ where the number does not."""
-
-
-def _differences(said: object, expected: object, where: str) -> Faults:
-    if isinstance(expected, dict) and isinstance(said, dict):
-        for key in expected.keys() | said.keys():
-            if key in ACCOUNT:
-                continue
-            if key not in said or key not in expected:
-                yield f"{where}: {key} {'is missing' if key not in said else 'does not belong'}"
-            else:
-                yield from _differences(said[key], expected[key], f"{where}: {key}")
-    elif isinstance(expected, list) and isinstance(said, list) and len(said) == len(expected):
-        for k, (one, other) in enumerate(zip(said, expected, strict=True)):
-            yield from _differences(one, other, f"{where}[{k}]")
-    elif not _same(said, expected):
-        yield f"{where} = {said!r}: should be {expected!r}"
-
-
-def _same(said: object, expected: object) -> bool:
-    if isinstance(expected, float) and isinstance(said, int | float):
-        return math.isclose(said, expected, rel_tol=RELATIVE_TOLERANCE, abs_tol=1e-7)
-    return said == expected
+    yield from differences(reading.data, expected, DESIGN_FILE)
 
 
 def _check_stitches(reading: _Reading) -> Faults:

@@ -46,6 +46,12 @@ def pages(found, paper="a4", sheet=None):
     return PdfReader(io.BytesIO(data)).pages
 
 
+@pytest.fixture(scope="module")
+def printed(small):
+    """Pages of a small array on A4."""
+    return pages(small)
+
+
 def words(page):
     return " ".join(page.extract_text().split())
 
@@ -74,8 +80,8 @@ def test_two_pages_of_the_paper(small, paper):
         assert sorted(size) == pytest.approx(PAPERS_MM[paper], abs=0.01)
 
 
-def test_words(small):
-    sheet, text = sheet_of(small), words(pages(small)[0])
+def test_words(small, printed):
+    sheet, text = sheet_of(small), words(printed[0])
     assert "array: worksheet" in text
     assert "array.dst, array.pes" in text
     for name, value in (*sheet.facts, *sheet.materials):
@@ -104,8 +110,8 @@ def test_numbers_follow_from_the_plan(small):
     assert facts["relaxed, cold"].startswith(f"{width + 0.5:.1f} × {depth + 0.5:.1f} mm")
 
 
-def test_the_outline_is_1_to_1_with_the_hoop_s_centre(small):
-    page = pages(small)[1]
+def test_the_outline_is_1_to_1_with_the_hoop_s_centre(small, printed):
+    page = printed[1]
     assert "stretched outline, 1:1" in words(page)
     cut = drawn(page)[255, 0, 0]
     outside = max(cut, key=len)
@@ -120,8 +126,8 @@ def test_the_outline_is_1_to_1_with_the_hoop_s_centre(small):
     np.testing.assert_allclose(middles, [moved[0], moved[0]], atol=2e-3)
 
 
-def test_the_bar_is_100_mm(small):
-    lengths = [np.ptp(line, axis=0) for line in drawn(pages(small)[1])[0, 0, 0]]
+def test_the_bar_is_100_mm(printed):
+    lengths = [np.ptp(line, axis=0) for line in drawn(printed[1])[0, 0, 0]]
     assert any(length == pytest.approx([100, 0], abs=1e-3) for length in lengths)
 
 
@@ -140,8 +146,8 @@ def test_a_wide_array_turns_the_page():
     assert "1:1" in words(page)
 
 
-def test_nothing_is_drawn_beyond_the_margins(small):
-    for page in pages(small):
+def test_nothing_is_drawn_beyond_the_margins(printed):
+    for page in printed:
         for line in (line for own in drawn(page).values() for line in own):
             width, height = float(page.mediabox.width) * MM, float(page.mediabox.height) * MM
             assert line.min() > MARGIN_MM - 0.1
