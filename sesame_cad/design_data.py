@@ -15,6 +15,7 @@ from sesame_cad.electrics_data import (
     electrics_data,
     in_parallel_ohm,
 )
+from sesame_cad.files.stitch_formats import LOSSES
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.specification import Specification
 from sesame_cad.state import State
@@ -51,6 +52,7 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         "circuits": circuits_data(spec, design.pattern),
         "electrics": electrics_data(spec, design.pattern),
         "stitch": stitch_data(design.pattern.plan, records),
+        "losses": {kind: list(LOSSES[kind]) for kind in spec.output.formats},
         "outline": {
             "openings": len(design.pattern.outline.openings),
             "margin_mm": spec.outline.margin_mm,

@@ -10,18 +10,23 @@ from typing import Any
 
 from patterns.records import Records, plan_records
 from sesame_cad.design_data import design_data
+from sesame_cad.files.block_list import block_list_csv
 from sesame_cad.files.dst import write_dst
 from sesame_cad.files.dxf import outline_dxf
-from sesame_cad.files.embroidery import write_embroidery
+from sesame_cad.files.plan_svg import plan_svg
+from sesame_cad.files.stitch_formats import write_embroidery
 from sesame_cad.files.stl import write_stl
 from sesame_cad.files.svg import outline_svg
 from sesame_cad.pictures.plan import plan_picture
 from sesame_cad.pictures.shapes import ShapeView, shapes_picture
+from sesame_cad.pictures.worksheet import worksheet_pdf
 from sesame_cad.pipeline import Design, design
 from sesame_cad.preview import solids
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory
 from sesame_cad.state import State
+from sesame_cad.threads import thread_of
+from sesame_cad.worksheet import worksheet
 
 Progress = Callable[[str], None]
 
@@ -70,10 +75,18 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
         if name == "dst":
             yield f"stitch/{spec.name}.dst", write_dst(records, spec.name)
         else:
-            yield f"stitch/{spec.name}.{name}", write_embroidery(records, name)
+            threads = [thread_of(block) for block in laid.plan.blocks]
+            yield f"stitch/{spec.name}.{name}", write_embroidery(records, name, threads)
+    yield f"stitch/{spec.name}.blocks.csv", block_list_csv(laid.plan).encode()
     progress("cut lines")
     yield f"cut/{spec.name}.svg", outline_svg(laid.outline, laid.marks, spec.name).encode()
     yield f"cut/{spec.name}.dxf", outline_dxf(laid.outline, laid.marks).encode()
+    progress("drawing of the plan")
+    drawing = plan_svg(laid, spec.diameters_mm, spec.name)
+    yield f"plan/{spec.name}.svg", drawing.encode()
+    progress("worksheet")
+    sheet = worksheet(made, records)
+    yield f"worksheet/{spec.name}.pdf", worksheet_pdf(sheet, laid, spec.output.paper)
     for name, solid in solids(made, progress):
         yield f"shape/{name}.stl", write_stl(solid, f"{spec.name} {name}")
     if spec.output.pictures:

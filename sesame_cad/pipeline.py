@@ -55,6 +55,21 @@ class Pattern:
     net: SewnNet
 
 
+class BrokenRulesError(InputError):
+    """A pattern was laid, but must not be sewn.
+
+    Attributes
+    ----------
+    pattern : Pattern
+    violations : tuple of Violation
+    """
+
+    def __init__(self, laid: Pattern, violations: tuple[Violation, ...], *faults: str) -> None:
+        super().__init__(*faults)
+        self.pattern: Pattern = laid
+        self.violations: tuple[Violation, ...] = violations
+
+
 @dataclass(frozen=True)
 class Design:
     """Everything that follows from a specification.
@@ -78,7 +93,8 @@ def pattern(spec: Specification) -> Pattern:
     Raises
     ------
     InputError
-        When the array cannot be sewn or cut as specified.
+        When the array cannot be sewn or cut as specified; `BrokenRulesError` when it was laid, but
+        breaks a design rule.
     """
     return _refusing(spec, partial(_pattern, spec))
 
@@ -133,9 +149,10 @@ def _pattern(spec: Specification) -> Pattern:
         *check_net(circuit, net),
         *check_outline(outline, circuit, wire_mm, spec.outline.margin_mm, plan),
     )
+    laid = Pattern(circuit, outline, marks, plan, net)
     if violations:
-        raise InputError(*_first_of_each_rule(spec, violations))
-    return Pattern(circuit, outline, marks, plan, net)
+        raise BrokenRulesError(laid, violations, *_first_of_each_rule(spec, violations))
+    return laid
 
 
 def net_of_stitches(spec: Specification, circuit: Circuit, plan: StitchPlan) -> SewnNet:

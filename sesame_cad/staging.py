@@ -72,6 +72,27 @@ def write_new_file(target: Path, content: bytes) -> None:
         shutil.rmtree(staging, ignore_errors=True)
 
 
+def replace_file(target: Path, content: bytes) -> None:
+    """Write a file that takes the place of an earlier one once it is complete.
+
+    Raises
+    ------
+    InputError
+        When something other than a file is in its place or its parent cannot be written to.
+    """
+    target = target.absolute()
+    _check_parent(target)
+    if os.path.lexists(target) and not (target.is_file() and not target.is_symlink()):
+        raise InputError(f"{target} is no file: it stays as it is; choose another name")
+    staging = _sibling(target, "new")
+    try:
+        aside = staging / target.name
+        aside.write_bytes(content)
+        aside.replace(target)
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
 def _move_into_place(staging: Path, target: Path) -> None:
     if not target.exists():
         staging.rename(target)
@@ -79,13 +100,14 @@ def _move_into_place(staging: Path, target: Path) -> None:
     aside = _sibling(target, "old")
     # The new name must be free of its empty directory on systems that do not replace one.
     aside.rmdir()
-    target.rename(aside)
     try:
+        target.rename(aside)
         staging.rename(target)
-    except BaseException:
-        aside.rename(target)
-        raise
-    shutil.rmtree(aside, ignore_errors=True)
+    finally:
+        # An interrupt may come between any two lines.
+        if not target.exists():
+            aside.rename(target)
+        shutil.rmtree(aside, ignore_errors=True)
 
 
 def _sibling(target: Path, purpose: str) -> Path:

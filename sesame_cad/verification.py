@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
 from pathlib import Path
@@ -14,33 +13,28 @@ from typing import Any
 import numpy as np
 
 from patterns.errors import PatternError
-from patterns.layout import Layout
-from patterns.outline import Outline
-from patterns.plan import UNITS_PER_MM, StitchPlan
+from patterns.plan import UNITS_PER_MM
 from patterns.records import Records, plan_from_records, plan_records
 from patterns.rules import check_plan
 from patterns.rules.net import check_net
-from patterns.rules.outline import check_outline
+from patterns.violation import Violation
+from sesame_cad.cut_checks import CUT_READERS, cut_faults
 from sesame_cad.design_data import FORMAT_VERSION, design_data
+from sesame_cad.differences import differences
 from sesame_cad.errors import DesignFileError, InputError
+from sesame_cad.files.block_list import block_list_csv
 from sesame_cad.files.dst import decode_dst
-from sesame_cad.files.dxf import read_outline_dxf
-from sesame_cad.files.embroidery import read_embroidery
-from sesame_cad.files.stl import read_stl
-from sesame_cad.files.svg import read_outline_svg
+from sesame_cad.files.stitch_formats import FORMATS
 from sesame_cad.package import file_data
 from sesame_cad.pipeline import Design, design, net_of_stitches
+from sesame_cad.solid_checks import solid_faults, solid_sizes_mm
 from sesame_cad.specification import specification_from
+from sesame_cad.specification.output import StitchFormat
 from sesame_cad.staging import DESIGN_FILE
 from solver.errors import NotConvergedError
 
-HEIGHT_TOLERANCE_MM = 0.01
-FOOTPRINT_TOLERANCE_MM = 0.1
-OUTLINE_TOLERANCE_MM = 0.002
-"""Cut files hold three decimals."""
-
-RELATIVE_TOLERANCE = 1e-6
-"""Numbers are made again on another machine at most this far off."""
+MOST_BYTES = 500_000_000
+"""No file of a design is larger, and a larger one is not read."""
 
 MOST_FAULTS = 100
 MOST_OF_A_RULE = 5
@@ -50,13 +44,32 @@ Faults = Iterator[str]
 Data = dict[str, Any]
 
 
-def verify(folder: Path) -> tuple[str, ...]:
-    """Verify a design; the design is made again from its specification, and compared.
+@dataclass(frozen=True)
+class Verification:
+    """What was found in a folder.
 
-    Returns
-    -------
-    tuple of str
-        One line per fault; empty when every file is as it should be.
+    Attributes
+    ----------
+    faults : tuple of str
+        One line each; empty when every file is as it should be.
+    sewn : Design or None
+        The design with the plan that the DST file holds; None when there is no such plan.
+    violations : tuple of Violation
+        Rules that this plan breaks.
+    """
+
+    faults: tuple[str, ...]
+    sewn: Design | None = None
+    violations: tuple[Violation, ...] = ()
+
+
+def verify(folder: Path) -> tuple[str, ...]:
+    """Give the faults that `verified` finds."""
+    return verified(folder).faults
+
+
+def verified(folder: Path) -> Verification:
+    """Verify a design; the design is made again from its specification, and compared.
 
     Raises
     ------
@@ -69,9 +82,13 @@ def verify(folder: Path) -> tuple[str, ...]:
         data = _read_data(folder / DESIGN_FILE)
         made = _made_again(data)
     except DesignFileError as error:
-        return (f"{DESIGN_FILE}: {error}",)
+        return Verification((f"{DESIGN_FILE}: {error}",))
     reading = _Reading(folder, data, made)
-    return tuple(fault for part in CHECKS for fault in _limited(part(reading), MOST_FAULTS))
+    faults = tuple(fault for part in CHECKS for fault in _limited(part(reading), MOST_FAULTS))
+    try:
+        return Verification(faults, reading.sewn, reading.violations)
+    except (DesignFileError, PatternError):
+        return Verification(faults)  # which tell it
 
 
 @dataclass(frozen=True)
@@ -88,9 +105,38 @@ class _Reading:
         return plan_records(self.made.pattern.plan, self.made.spec.patterns_machine())
 
     def content(self, path: str) -> bytes | None:
-        """Bytes of a file; none when it is missing, which `_check_files` reports."""
+        """Bytes of a file; none when it is missing or too large, which `_check_files` reports."""
         file = self.folder / path
-        return file.read_bytes() if file.is_file() else None
+        good = file.is_file() and file.stat().st_size <= MOST_BYTES
+        return file.read_bytes() if good else None
+
+    @cached_property
+    def dst(self) -> Records | None:
+        """What the DST file holds, if there is one; raises `DesignFileError`."""
+        content = self.content(f"stitch/{self.made.spec.name}.dst")
+        return None if content is None else decode_dst(content).records
+
+    @cached_property
+    def sewn(self) -> Design | None:
+        """The design with the DST file's plan; raises `PatternError` when it is none."""
+        if self.dst is None:
+            return None
+        laid = self.made.pattern
+        plan = plan_from_records(self.dst, laid.plan.blocks)
+        return replace(self.made, pattern=replace(laid, plan=plan))
+
+    @cached_property
+    def violations(self) -> tuple[Violation, ...]:
+        """Hold what the DST file says against the design rules, whatever the plan was."""
+        if self.sewn is None:
+            return ()
+        spec, laid = self.sewn.spec, self.sewn.pattern
+        machine, stitching = spec.patterns_machine(), spec.patterns_stitching()
+        net = net_of_stitches(spec, laid.circuit, laid.plan)
+        return (
+            *check_plan(laid.circuit, laid.plan, machine, stitching, spec.diameters_mm),
+            *check_net(laid.circuit, net),
+        )
 
 
 def _read_data(file: Path) -> Data:
@@ -138,7 +184,8 @@ def _check_files(reading: _Reading) -> Faults:
     for path, said in listed.items():
         content = reading.content(path)
         if content is None:
-            yield f"{path}: missing"
+            there = (reading.folder / path).is_file()
+            yield f"{path}: {f'more than {MOST_BYTES} bytes' if there else 'missing'}"
         elif file_data(content) != said:
             yield f"{path}: changed since it was written (its size or hash is another)"
     for file in sorted(reading.folder.rglob("*")):
@@ -152,7 +199,9 @@ def _check_files(reading: _Reading) -> Faults:
 
 def _expected_files(made: Design) -> Iterator[str]:
     name = made.spec.name
-    yield from (f"stitch/{name}.{kind}" for kind in made.spec.output.formats)
+    yield from (f"stitch/{name}.{kind}" for kind in (*made.spec.output.formats, "blocks.csv"))
+    yield f"plan/{name}.svg"
+    yield f"worksheet/{name}.pdf"
     yield from (f"cut/{name}.{kind}" for kind in ("svg", "dxf"))
     if made.spec.output.pictures:
         yield "pictures/plan.png"
@@ -165,53 +214,34 @@ def _expected_files(made: Design) -> Iterator[str]:
 def _check_numbers(reading: _Reading) -> Faults:
     """Numbers in `design.json` are those that follow from its specification."""
     expected = design_data(reading.made, reading.records, reading.data["files"])
-    yield from _differences(reading.data, expected, DESIGN_FILE)
-
-
-ACCOUNT = frozenset({"seconds", "steps", "factorizations", "gradient_norm", "height_change"})
-"""Keys that tell how a number was found; they may differ where the number does not."""
-
-
-def _differences(said: object, expected: object, where: str) -> Faults:
-    if isinstance(expected, dict) and isinstance(said, dict):
-        for key in expected.keys() | said.keys():
-            if key in ACCOUNT:
-                continue
-            if key not in said or key not in expected:
-                yield f"{where}: {key} {'is missing' if key not in said else 'does not belong'}"
-            else:
-                yield from _differences(said[key], expected[key], f"{where}: {key}")
-    elif isinstance(expected, list) and isinstance(said, list) and len(said) == len(expected):
-        for k, (one, other) in enumerate(zip(said, expected, strict=True)):
-            yield from _differences(one, other, f"{where}[{k}]")
-    elif not _same(said, expected):
-        yield f"{where} = {said!r}: should be {expected!r}"
-
-
-def _same(said: object, expected: object) -> bool:
-    if isinstance(expected, float) and isinstance(said, int | float):
-        return math.isclose(said, expected, rel_tol=RELATIVE_TOLERANCE, abs_tol=1e-7)
-    return said == expected
+    yield from differences(reading.data, expected, DESIGN_FILE)
 
 
 def _check_stitches(reading: _Reading) -> Faults:
     """Stitch files hold every stitch and stop of the plan, and break no rule."""
-    name = reading.made.spec.name
-    for kind in reading.made.spec.output.formats:
-        path = f"stitch/{name}.{kind}"
-        content = reading.content(path)
-        if content is None:
-            continue
-        try:
-            records = (
-                decode_dst(content).records if kind == "dst" else read_embroidery(content, kind)
-            )
-        except DesignFileError as error:
-            yield f"{path}: {error}"
-            continue
-        yield from (f"{path}: {fault}" for fault in _record_faults(records, reading.records))
-        if kind == "dst":
-            yield from (f"{path}: {fault}" for fault in _rule_faults(records, reading.made))
+    spec, plan = reading.made.spec, reading.made.pattern.plan
+    for kind in spec.output.formats:
+        path = f"stitch/{spec.name}.{kind}"
+        yield from (f"{path}: {fault}" for fault in _format_faults(reading, kind, path))
+    path = f"stitch/{spec.name}.blocks.csv"
+    blocks = reading.content(path)
+    if blocks is not None and blocks != block_list_csv(plan).encode():
+        yield f"{path}: not the list of the plan's blocks"
+
+
+def _format_faults(reading: _Reading, kind: StitchFormat, path: str) -> Faults:
+    content = reading.content(path)
+    if content is None:
+        return
+    try:
+        if kind != "dst":
+            known = FORMATS[kind]
+            yield from _record_faults(known.read(content), known.carried(reading.records))
+        elif reading.dst is not None:
+            yield from _record_faults(reading.dst, reading.records)
+            yield from _rule_faults(reading)
+    except DesignFileError as error:
+        yield str(error)
 
 
 def _record_faults(records: Records, expected: Records) -> Faults:
@@ -230,108 +260,33 @@ def _record_faults(records: Records, expected: Records) -> Faults:
         )
 
 
-def _rule_faults(records: Records, made: Design) -> Faults:
-    """Hold what the file says against the design rules, whatever the plan was."""
-    spec, blocks = made.spec, made.pattern.plan.blocks
+def _rule_faults(reading: _Reading) -> Faults:
     try:
-        plan: StitchPlan = plan_from_records(records, blocks)
+        violations = reading.violations
     except PatternError as error:
         yield str(error)
         return
-    violations = check_plan(
-        made.pattern.circuit,
-        plan,
-        spec.patterns_machine(),
-        spec.patterns_stitching(),
-        spec.diameters_mm,
-    )
-    net = check_net(made.pattern.circuit, net_of_stitches(spec, made.pattern.circuit, plan))
-    for _, of_rule in groupby((*violations, *net), key=lambda violation: violation.rule):
+    for _, of_rule in groupby(violations, key=lambda violation: violation.rule):
         yield from _limited(map(str, of_rule), MOST_OF_A_RULE)
 
 
 def _check_cut(reading: _Reading) -> Faults:
     """Cut files hold the outline, closed, in mm, clear of wire and needle."""
-    spec, laid = reading.made.spec, reading.made.pattern
-    readers: dict[str, Callable[[bytes], tuple[Outline, Any]]] = {
-        "svg": read_outline_svg,
-        "dxf": read_outline_dxf,
-    }
-    for kind, read in readers.items():
-        path = f"cut/{spec.name}.{kind}"
+    for kind in CUT_READERS:
+        path = f"cut/{reading.made.spec.name}.{kind}"
         content = reading.content(path)
-        if content is None:
-            continue
-        try:
-            outline, strokes = read(content)
-        except DesignFileError as error:
-            yield f"{path}: {error}"
-            continue
-        yield from (f"{path}: {fault}" for fault in _outline_faults(outline, laid.outline))
-        expected = [stroke for mark in laid.marks for stroke in mark.strokes]
-        if not _same_lines(strokes, expected):
-            yield f"{path}: the registration marks are not those of the stitch file"
-        margin = spec.outline.margin_mm - OUTLINE_TOLERANCE_MM
-        for fault in check_outline(outline, laid.circuit, spec.diameters_mm, margin, laid.plan):
-            yield f"{path}: {fault}"
-
-
-def _outline_faults(outline: Outline, expected: Outline) -> Faults:
-    if not _same_lines(outline.outsides, expected.outsides):
-        yield "the outside is not the one that was designed"
-    if not _same_lines(outline.openings, expected.openings):
-        yield "the openings are not the ones that were designed"
-
-
-def _same_lines(lines: Any, expected: Any) -> bool:
-    return len(lines) == len(expected) and all(
-        a.shape == b.shape and float(np.abs(a - b).max()) <= OUTLINE_TOLERANCE_MM
-        for a, b in zip(lines, expected, strict=True)
-    )
+        if content is not None:
+            faults = cut_faults(content, kind, reading.made)
+            yield from (f"{path}: {fault}" for fault in faults)
 
 
 def _check_shapes(reading: _Reading) -> Faults:
     """STL files are watertight solids of the predicted size."""
-    made = reading.made
-    wire = made.spec.wire.diameter_mm
-    sizes: dict[str, tuple[float, float, float]] = {}
-    for state in made.states:
-        width, depth = _laid_size_mm(made.pattern.circuit.layout)
-        sizes["flat"] = (width + wire, depth + wire, wire)
-        width, depth = state.footprint_mm
-        sizes[state.name] = (width + wire, depth + wire, state.height_mm + wire)
-    for name, size in sizes.items():
+    for name, size in solid_sizes_mm(reading.made).items():
         path = f"shape/{name}.stl"
         content = reading.content(path)
-        if content is None:
-            continue
-        try:
-            yield from (f"{path}: {fault}" for fault in _solid_faults(content, size))
-        except DesignFileError as error:
-            yield f"{path}: {error}"
-
-
-def _laid_size_mm(layout: Layout) -> tuple[float, float]:
-    """Width and depth over the outer wires' centrelines in the hoop."""
-    place = np.array([(loop.x_mm, loop.y_mm, loop.radius_mm) for loop in layout.loops])
-    centre, radius = place[:, :2], place[:, 2:]
-    width, depth = (centre + radius).max(axis=0) - (centre - radius).min(axis=0)
-    return float(width), float(depth)
-
-
-def _solid_faults(content: bytes, size: tuple[float, float, float]) -> Faults:
-    solid = read_stl(content)
-    if not solid.is_watertight:
-        yield "not watertight"
-    if solid.volume <= 0:
-        yield "inside out: its volume is not positive"
-    tolerances = (FOOTPRINT_TOLERANCE_MM, FOOTPRINT_TOLERANCE_MM, HEIGHT_TOLERANCE_MM)
-    measured = solid.extents
-    for axis, found, predicted, tolerance in zip(
-        ("width", "depth", "height"), measured, size, tolerances, strict=True
-    ):
-        if abs(found - predicted) > tolerance:
-            yield f"{axis} {found:.3f} mm; predicted {predicted:.3f} mm with the wire"
+        if content is not None:
+            yield from (f"{path}: {fault}" for fault in solid_faults(content, size))
 
 
 CHECKS: tuple[Callable[[_Reading], Faults], ...] = (

@@ -9,15 +9,25 @@ import click
 
 @click.command("check")
 @click.argument("directory", type=click.Path(path_type=Path))
+@click.option(
+    "--faults",
+    type=click.Path(path_type=Path),
+    help="Picture (.svg or .png) to draw if the stitches break design rules.",
+)
 @click.option("--quiet", "-q", is_flag=True, help="Say nothing when all is well.")
-def command(directory: Path, quiet: bool) -> None:
+def command(directory: Path, faults: Path | None, quiet: bool) -> None:
     """Verify every file of the design in DIRECTORY; one line per fault, exit code 1 if any."""
-    from sesame_cad.verification import verify
+    from sesame_cad.faults import check_picture_name, draw_broken_rules
+    from sesame_cad.verification import verified
 
-    faults = verify(directory)
-    for fault in faults:
-        click.echo(fault)
-    if faults:
+    if faults is not None:
+        check_picture_name(faults)
+    found = verified(directory)
+    for line in found.faults:
+        click.echo(line)
+    if faults is not None and found.sewn is not None and found.violations:
+        draw_broken_rules(faults, found.sewn.spec, found.sewn.pattern, found.violations)
+    if found.faults:
         raise click.exceptions.Exit(1)
     if not quiet:
         click.echo(f"{directory}: every file is as it should be")

@@ -41,8 +41,15 @@ def _quantity_options(function: Callable[..., None]) -> Callable[..., None]:
 @_quantity_options
 @click.option("--name", help="Name of the design; also of its folder.")
 @click.option("--reading", type=str, help="plane-stress or published.")
-@click.option("--format", "formats", multiple=True, help="Stitch format: dst, exp or u01.")
+@click.option(
+    "--format", "formats", multiple=True, help="Stitch format: dst, exp, u01, pes, jef or vp3."
+)
 @click.option("--output", "-o", type=click.Path(path_type=Path), help="Folder to make. [NAME]")
+@click.option(
+    "--faults",
+    type=click.Path(path_type=Path),
+    help="Picture (.svg or .png) to draw if the plan breaks design rules.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print design.json to stdout.")
 @click.option("--quiet", "-q", is_flag=True, help="Print nothing.")
 def command(
@@ -53,6 +60,7 @@ def command(
     reading: str | None,
     formats: tuple[str, ...],
     output: Path | None,
+    faults: Path | None,
     as_json: bool,
     quiet: bool,
     **quantities: str | None,
@@ -64,7 +72,9 @@ def command(
     """
     import json
 
+    from sesame_cad.faults import check_picture_name, draw_broken_rules
     from sesame_cad.package import write_package
+    from sesame_cad.pipeline import BrokenRulesError
     from sesame_cad.progress import telling
     from sesame_cad.summary import print_design
     from solver.errors import NotConvergedError
@@ -79,9 +89,15 @@ def command(
     overrides = {key: value for key, value in plain.items() if value is not None}
     specification = _specification(spec, overrides | _quantities(quantities))
     target = output or Path(specification.name)
+    if faults is not None:
+        check_picture_name(faults)
     try:
         with telling(quiet=quiet or as_json) as progress:
             data = write_package(specification, target, progress)
+    except BrokenRulesError as error:
+        if faults is not None:
+            draw_broken_rules(faults, specification, error.pattern, error.violations)
+        raise
     except NotConvergedError as error:
         click.echo(f"error: {specification.name}: {error}", err=True)
         raise click.exceptions.Exit(1) from None

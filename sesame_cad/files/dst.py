@@ -19,6 +19,7 @@ HEADER_BYTES = 512
 RECORD_BYTES = 3
 LABEL_CHARACTERS = 16
 MOST_STOPS = 999
+MOST_RECORDS = 9_999_999
 LARGEST_EXTENT = 99_999
 """Largest extent, in 0.1 mm, for which the header has room (five figures)."""
 
@@ -125,6 +126,10 @@ def decode_dst(data: bytes) -> DstFile:
             f"{len(data)} bytes are no DST file: header and end record are "
             f"{HEADER_BYTES + RECORD_BYTES} bytes"
         )
+    if len(data) > HEADER_BYTES + RECORD_BYTES * MOST_RECORDS:
+        raise DesignFileError(
+            f"{len(data)} bytes are no DST file: its header counts to {MOST_RECORDS} records"
+        )
     header = _read_header(data[:HEADER_BYTES])
     records = _read_records(data[HEADER_BYTES:])
     _check_header(header, dst_header(records, header.label))
@@ -159,7 +164,10 @@ def _faults(records: Records, header: DstHeader) -> tuple[str, ...]:
                 f"room for {LARGEST_EXTENT / 10} mm"
             ),
         ),
-        (header.record_count <= 9_999_999, f"{header.record_count} records; DST counts to 9999999"),
+        (
+            header.record_count <= MOST_RECORDS,
+            f"{header.record_count} records; DST counts to {MOST_RECORDS}",
+        ),
     )
     return tuple(message for good, message in checks if not good)
 
@@ -263,6 +271,9 @@ def _steps(table: NDArray[np.uint8]) -> Points:
         (0, 0, 0, 0, -27, 27, -3, 3),
         (0, 0, 0, 0, -81, 81, 0, 0),
     )
-    bits = np.unpackbits(table.reshape(-1, RECORD_BYTES, 1), axis=2, bitorder="little")
-    weights = np.array([x_weights, y_weights])
-    return np.tensordot(bits.astype(np.int64), weights, axes=([1, 2], [1, 2])).astype(np.int64)
+    bits = np.unpackbits(np.arange(256, dtype=np.uint8)[:, None], axis=1, bitorder="little")
+    steps = np.zeros((len(table), 2), dtype=np.int64)
+    # What each value of a byte adds, looked up: a long file is decoded in little memory.
+    for k, weights in enumerate(zip(x_weights, y_weights, strict=True)):
+        steps += (bits @ np.array(weights).T)[table[:, k]]
+    return steps

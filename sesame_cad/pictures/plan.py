@@ -9,24 +9,19 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from patterns.circuit import Circuit
-from patterns.layout import Layout
+from patterns.loop_order import loops_in_order
 from patterns.outline import Outline
-from patterns.path import Arc, WirePath
+from patterns.path import WirePath
 from patterns.plan import UNITS_PER_MM, BlockKind, StitchPlan
 from patterns.registration import Mark
 from sesame_cad.pictures.canvas import png_bytes
+from sesame_cad.threads import COVER, MARK, STAGES
 
 Vectors = NDArray[np.float64]
 
-# Okabe and Ito's colours, told apart by every kind of colour vision.
-STAGES = ("#0072B2", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#8B5A2B")
-"""Of the stages of the wire; after the last the first comes again."""
-
-COVER = "#009E73"
-NEEDLE, CUT, MARK = "#777777", "#555555", "#000000"
+NEEDLE, CUT = "#777777", "#555555"
 
 _WIDTH_IN = 9.0
-_SAME_CENTRE_MM = 1e-3
 _ARROW_SHARE, _LARGEST_ARROW = 0.02, 0.25
 """Length of arrow heads as a share of the width, but at most this share of the smallest loop."""
 
@@ -34,7 +29,14 @@ _ARROW_SHARE, _LARGEST_ARROW = 0.02, 0.25
 def plan_picture(
     circuit: Circuit, plan: StitchPlan, outline: Outline, marks: tuple[Mark, ...]
 ) -> bytes:
-    """Draw wire, covers, needle points and cut lines; a PNG whose bytes can be made again.
+    """Draw wire, covers, needle points and cut lines; a PNG whose bytes can be made again."""
+    return png_bytes(plan_figure(circuit, plan, outline, marks))
+
+
+def plan_figure(
+    circuit: Circuit, plan: StitchPlan, outline: Outline, marks: tuple[Mark, ...]
+) -> Figure:
+    """Draw wire, covers, needle points and cut lines in the one pair of axes of a figure.
 
     Loops are numbered in the order in which the wire reaches them.
     """
@@ -49,22 +51,7 @@ def plan_picture(
     _draw_numbers(axes, circuit)
     _draw_ends(axes, circuit)
     _finish(axes)
-    return png_bytes(figure)
-
-
-def loops_in_order(circuit: Circuit) -> tuple[int, ...]:
-    """Give the loops in the order in which the wire reaches them, stage by stage."""
-    pieces = circuit.wire.pieces
-    reached = (_loop_of(piece, circuit.layout) for piece in pieces if isinstance(piece, Arc))
-    return tuple(dict.fromkeys(loop for loop in reached if loop is not None))
-
-
-def _loop_of(arc: Arc, layout: Layout) -> int | None:
-    """Loop that an arc runs on; none for the bend of a tail."""
-    centres = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops])
-    away = np.hypot(*(centres - (arc.centre_x_mm, arc.centre_y_mm)).T)
-    loop = int(np.argmin(away))
-    return loop if away[loop] < _SAME_CENTRE_MM else None
+    return figure
 
 
 def _colour(stage: int) -> str:

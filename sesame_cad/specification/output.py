@@ -6,9 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from sesame_cad.specification.section import Section
+from sesame_cad.specification.section import Allowed, Section
 
-StitchFormat = Literal["dst", "exp", "u01"]
+NOTES = Allowed("at most 2000 printable characters and line ends")
+
+StitchFormat = Literal["dst", "exp", "u01", "pes", "jef", "vp3"]
 
 
 def _dst_first(formats: tuple[StitchFormat, ...]) -> tuple[StitchFormat, ...]:
@@ -16,8 +18,14 @@ def _dst_first(formats: tuple[StitchFormat, ...]) -> tuple[StitchFormat, ...]:
     return tuple(dict.fromkeys(("dst", *formats)))
 
 
+def _readable(text: str) -> str:
+    if not text.replace("\n", "").isprintable():
+        raise ValueError(f"must be {NOTES.text}")
+    return text
+
+
 class OutputSection(Section):
-    """Stitch formats, the thickness of the preview, pictures."""
+    """Stitch formats, the thickness of the preview, pictures, the worksheet."""
 
     formats: Annotated[tuple[StitchFormat, ...], AfterValidator(_dst_first)] = Field(
         default=("dst",),
@@ -32,5 +40,11 @@ class OutputSection(Section):
             "the thickness in mm of the fabric in the printable preview, no more than the wire's; "
             "when left out, the fabric's own, but at most 0.8 wire diameters"
         ),
+    )
+    paper: Literal["a4", "letter"] = Field(
+        default="a4", description="the paper of the worksheet (a word)"
+    )
+    notes: Annotated[str, Field(max_length=2000), AfterValidator(_readable), NOTES] = Field(
+        default="", description="free notes for the worksheet (a text)"
     )
     pictures: bool = Field(default=True, description="whether pictures are drawn (true or false)")

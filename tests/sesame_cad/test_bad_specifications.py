@@ -93,15 +93,20 @@ WRONG_VALUES = [
     ("model", 'reading = "plane stress"', 'must be one of "plane-stress", "published"'),
     (
         "output",
-        'formats = ["dst", "pes", "jef"]',
-        'must be a list, each item one of "dst", "exp", "u01"',
+        'formats = ["dst", "hus", "jef"]',
+        'must be a list, each item one of "dst", "exp", "u01", "pes", "jef", "vp3"',
     ),
-    ("output", 'formats = "dst"', 'must be a list, each item one of "dst", "exp", "u01"'),
+    (
+        "output",
+        'formats = "dst"',
+        'must be a list, each item one of "dst", "exp", "u01", "pes", "jef", "vp3"',
+    ),
     (
         "layout",
         "loop_diameter_mm = 24.9",
         "must be at least 25: a smaller loop bends wire of 0.5 mm to a radius below …",
     ),
+    ("output", 'paper = "a5"', 'must be one of "a4", "letter"'),
     ("output", "preview_thickness_mm = 0.6", "must be at most wire.diameter_mm = 0.5"),
 ]
 

@@ -68,6 +68,9 @@ def test_files_are_listed_with_size_and_hash(large_array):
     found.pop("design.json")
     assert {path: entry["sha256"] for path, entry in data["files"].items()} == found
     assert set(found) == {
+        "plan/large-array.svg",
+        "stitch/large-array.blocks.csv",
+        "worksheet/large-array.pdf",
         "stitch/large-array.dst",
         "cut/large-array.svg",
         "cut/large-array.dxf",

@@ -147,6 +147,9 @@ def test_a_design_without_a_shape_has_stitches_and_cuts_only(run_design, tmp_pat
     assert kinds[1:] == [("wire", 1), ("cover", 2), ("wire", 2), ("cover", 3), ("wire", 3)]
     assert "Stage 3 of 3" in data["stitch"]["blocks"][-1]["instruction"]
     assert set(data["files"]) == {
+        "plan/array.svg",
+        "stitch/array.blocks.csv",
+        "worksheet/array.pdf",
         "stitch/array.dst",
         "cut/array.svg",
         "cut/array.dxf",

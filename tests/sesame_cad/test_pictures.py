@@ -8,13 +8,15 @@ from PIL import Image
 
 from patterns.circuit import Circuit
 from patterns.layout import Layout, Loop
+from patterns.loop_order import loops_in_order
 from patterns.outline import Outline
 from patterns.path import Arc, Line, WirePath
 from patterns.plan import Block, BlockKind, Run, StitchPlan
 from patterns.registration import Mark
-from sesame_cad.pictures.plan import COVER, STAGES, loops_in_order, plan_picture
+from sesame_cad.pictures.plan import plan_picture
 from sesame_cad.pictures.rendering import View, fabric_patch, projected_bounds, render
 from sesame_cad.pictures.shapes import ShapeView, shapes_picture
+from sesame_cad.threads import COVER, STAGES
 
 
 def pixels(data):

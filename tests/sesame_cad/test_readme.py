@@ -35,7 +35,7 @@ def _with_keys(text):
 
 
 def _default(value):
-    if value is None or value == ():
+    if value in {None, (), ""}:
         return "none"
     if isinstance(value, tuple):
         return ", ".join(value)

@@ -1,12 +1,16 @@
 """Results appear complete or not at all, and nobody's files go."""
 
+import errno
 import json
+import os
+import sys
 from pathlib import Path
 
 import pytest
 
+from sesame_cad import staging
 from sesame_cad.errors import InputError
-from sesame_cad.staging import staged_directory
+from sesame_cad.staging import replace_file, staged_directory
 
 
 class BrokenError(Exception):
@@ -204,3 +208,104 @@ def test_directories_of_killed_runs_do_no_harm(earlier):
         fill(folder)
     assert contents(earlier)["cut/plate.svg"] == "new"
     assert stale.is_dir()
+
+
+def interrupted_at(line, work):
+    """Do some work, with an interrupt before a line of the module; whether it came so far."""
+    left = line
+
+    def trace(frame, event, _):
+        nonlocal left
+        if frame.f_code.co_filename != staging.__file__:
+            return None
+        if event == "line":
+            left -= 1
+            if left == 0:
+                raise KeyboardInterrupt
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        work()
+    except KeyboardInterrupt:
+        return True
+    finally:
+        sys.settrace(before)
+    return False
+
+
+def staged(target):
+    with staged_directory(target) as folder:
+        fill(folder)
+
+
+@pytest.mark.parametrize("line", range(1, 90, 2))
+def test_an_interrupt_anywhere_leaves_the_old_or_the_new_result_whole(earlier, line):
+    interrupted_at(line, lambda: staged(earlier))
+    assert contents(earlier)["cut/plate.svg"] in {"old", "new"}
+    assert contents(earlier).keys() == {"cut/plate.svg", "design.json"}
+
+
+def test_an_interrupt_while_the_result_is_moved_leaves_it_in_its_place(earlier, monkeypatch):
+    """In the moment in which the earlier result is aside and the new one not there yet."""
+    rename = Path.rename
+
+    def interrupting(path, to):
+        moved = rename(path, to)
+        if path == earlier:
+            raise KeyboardInterrupt
+        return moved
+
+    monkeypatch.setattr(Path, "rename", interrupting)
+    with pytest.raises(KeyboardInterrupt):
+        staged(earlier)
+    assert contents(earlier)["cut/plate.svg"] == "old"
+    assert_nothing_beside(earlier)
+
+
+def test_a_full_disk_at_any_file_leaves_the_earlier_result(earlier, monkeypatch):
+    before, write = contents(earlier), Path.write_text
+    for full_at in (1, 2):
+        count = 0
+
+        def writing(path, text, full_at=full_at):
+            nonlocal count
+            count += 1
+            if count == full_at:
+                write(path, text[:3])
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            write(path, text)
+
+        with monkeypatch.context() as patched:
+            patched.setattr(Path, "write_text", writing)
+            with pytest.raises(OSError, match="No space"):
+                staged(earlier)
+        assert contents(earlier) == before
+        assert_nothing_beside(earlier)
+
+
+def test_a_file_takes_the_place_of_another_only_when_it_is_complete(tmp_path, monkeypatch):
+    target = tmp_path / "faults.svg"
+    replace_file(target, b"one")
+    replace_file(target, b"two")
+    assert target.read_bytes() == b"two"
+    write = Path.write_bytes
+
+    def full(path, content):
+        write(path, content[:1])
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(OSError, match="No space"):
+        replace_file(target, b"three")
+    assert target.read_bytes() == b"two"
+    assert [path.name for path in tmp_path.iterdir()] == ["faults.svg"]
+
+
+def test_links_and_folders_are_not_replaced(tmp_path):
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "folder")
+    for name in ("folder", "link"):
+        with pytest.raises(InputError, match="is no file"):
+            replace_file(tmp_path / name, b"x")

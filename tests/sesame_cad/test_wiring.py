@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -81,7 +82,9 @@ def test_a_design_whose_stitches_short_is_refused_and_found(monkeypatch):
         for block in blocks
     )
     records = plan_records(StitchPlan(bare), spec.patterns_machine())
-    assert any("net: short circuit" in fault for fault in verification._rule_faults(records, made))
+    reading = verification._Reading(Path(), {}, made)
+    monkeypatch.setitem(vars(reading), "dst", records)
+    assert any("net: short circuit" in fault for fault in verification._rule_faults(reading))
     monkeypatch.setattr(pipeline, "stitch_plan", lambda *_: StitchPlan(bare))
     assert any("net: short circuit" in fault for fault in faults())
 

@@ -1,0 +1,144 @@
+"""The whole plan as one drawing in layers, 1:1, for Inkscape or a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+from xml.etree import ElementTree
+
+import numpy as np
+
+from patterns.circuit import Circuit, Diameters
+from patterns.loop_order import loops_in_order
+from patterns.path import Arc, Piece, WirePath
+from patterns.plan import UNITS_PER_MM, Block, Points
+from sesame_cad.files.sheet import Sheet, lay_out
+from sesame_cad.files.svg_page import (
+    add_layer,
+    add_reference,
+    add_text,
+    line_path,
+    number,
+    svg_page,
+    svg_text,
+)
+from sesame_cad.pipeline import Pattern
+from sesame_cad.threads import MARK, STAGES, thread_of
+
+_LINE = "fill:none;stroke-linejoin:round;stroke-width:"
+_LABEL = "stroke:none;font-family:sans-serif;text-anchor:middle;"
+_NEEDLE_MM, _STITCH_MM, _CUT_MM = 0.2, 0.12, 0.1
+_CUT = "#ff0000"
+_ASIDE_MM = 6.0
+
+
+def plan_svg(laid: Pattern, wire_diameter_mm: Diameters, name: str) -> str:
+    """Draw everything that is laid, sewn and cut.
+
+    Layers, from the bottom: OUTLINE; MARKS; WIRE-k, the centreline of stage k in lines and arcs, as
+    wide as the wire; STITCHES-k and NEEDLES-k of each block k; LABELS; REFERENCE, a 100 mm bar.
+    A layer of stitches has a path with a line for each run, one of needle points a path with a dot
+    for each, so a drawing has few elements however many stitches there are.
+    """
+    sheet = lay_out(laid.outline, laid.marks)
+    root = svg_page(sheet, name)
+    draw_plan(root, sheet, laid, wire_diameter_mm)
+    return svg_text(root)
+
+
+def draw_plan(
+    root: ElementTree.Element, sheet: Sheet, laid: Pattern, wire_diameter_mm: Diameters
+) -> None:
+    """Add the layers of `plan_svg` to a page."""
+    rings = [line_path(sheet, ring, closed=True) for ring in laid.outline.rings]
+    add_layer(root, "OUTLINE", f"{_LINE}{_CUT_MM};stroke:{_CUT}", rings)
+    strokes = [
+        line_path(sheet, stroke, closed=False) for mark in laid.marks for stroke in mark.strokes
+    ]
+    add_layer(root, "MARKS", f"{_LINE}{_CUT_MM};stroke:{MARK}", strokes)
+    diameters_mm = laid.circuit.of_stages(wire_diameter_mm)
+    for k, stage in enumerate(laid.circuit.stages):
+        style = f"{_LINE}{number(diameters_mm[k])};stroke-opacity:0.5;stroke:{_stage_colour(k)}"
+        add_layer(root, f"WIRE-{k + 1}", style, [_wire_path(sheet, stage)])
+    for k, block in enumerate(laid.plan.blocks, start=1):
+        colour = thread_of(block).colour
+        style = f"{_LINE}{_STITCH_MM};stroke:{colour}"
+        add_layer(root, f"STITCHES-{k}", style, [_stitches(sheet, block)])
+        dots = f"{_LINE}{_NEEDLE_MM};stroke-linecap:round;stroke:{colour}"
+        add_layer(root, f"NEEDLES-{k}", dots, [_needles(sheet, block)])
+    _add_labels(root, sheet, laid.circuit)
+    add_reference(root, sheet)
+
+
+def _stage_colour(stage: int) -> str:
+    return STAGES[stage % len(STAGES)]
+
+
+def _wire_path(sheet: Sheet, path: WirePath) -> str:
+    (start,), _ = path.pieces[0].at(np.zeros(1))
+    x, y = sheet.on_page(start[None])[0]
+    return f"M {number(x)},{number(y)}" + "".join(
+        part for piece in path.pieces for part in _piece(sheet, piece)
+    )
+
+
+def _piece(sheet: Sheet, piece: Piece) -> Iterator[str]:
+    """Path data from the end of the piece before; no arc is more than half a circle."""
+    parts = 1
+    if isinstance(piece, Arc):
+        parts = max(1, int(np.ceil(abs(piece.sweep_rad) / pi - 1e-9)))
+    ends, _ = piece.at(np.arange(1, parts + 1) * piece.length_mm / parts)
+    for x, y in sheet.on_page(ends).tolist():
+        if isinstance(piece, Arc):
+            radius, sweep = number(piece.radius_mm), int(piece.sweep_rad < 0)  # y is down there
+            yield f" A {radius},{radius} 0 0,{sweep} {number(x)},{number(y)}"
+        else:
+            yield f" L {number(x)},{number(y)}"
+
+
+def _stitches(sheet: Sheet, block: Block) -> str:
+    """Give each run as a line from its first needle point to its last."""
+    return "".join(f"M{_place(sheet, run.needles)}l{_steps(run.needles)}" for run in block.runs)
+
+
+def _needles(sheet: Sheet, block: Block) -> str:
+    """Give each needle point as a line of no length, which round ends make a dot."""
+    needles = np.concatenate([run.needles for run in block.runs])
+    steps = _steps(needles).split(" ") if len(needles) > 1 else []
+    return f"M{_place(sheet, needles)}h0" + "".join(f"m{step}h0" for step in steps)
+
+
+def _place(sheet: Sheet, needles: Points) -> str:
+    x, y = sheet.on_page(needles[:1] / UNITS_PER_MM)[0]
+    return f"{x:g},{y:g}"
+
+
+def _steps(needles: Points) -> str:
+    """Displacements in mm, exact to the last figure: they are whole tenths."""
+    step = np.diff(needles, axis=0) * (1, -1)
+    tenths = {k: f"{k / UNITS_PER_MM:g}" for k in np.unique(step).tolist()}
+    return " ".join(f"{tenths[x]},{tenths[y]}" for x, y in step.tolist())
+
+
+def _add_labels(root: ElementTree.Element, sheet: Sheet, circuit: Circuit) -> None:
+    loops = circuit.layout.loops
+    group = add_layer(root, "LABELS", _LABEL)
+    for order, k in enumerate(loops_in_order(circuit), start=1):
+        size = min(8.0, loops[k].diameter_mm / 5)
+        style = f"font-size:{number(size)}px;fill:#333333"
+        (place,) = sheet.on_page(np.array([[loops[k].x_mm, loops[k].y_mm]]))
+        add_text(group, str(order), (float(place[0]), float(place[1]) + size / 3), style)
+    for text, place, colour in _ends(circuit):
+        (x, y), style = sheet.on_page(place)[0], f"font-size:4px;fill:{colour}"
+        add_text(group, text, (float(x), float(y)), style)
+
+
+def _ends(circuit: Circuit) -> Iterator[tuple[str, np.ndarray, str]]:
+    """Labels of the terminals, beyond the wire, and of the stages, beside their first points."""
+    last = len(circuit.stages) - 1
+    for k, stage in enumerate(circuit.stages):
+        place, along = stage.at(0.0)
+        away = along[:, ::-1] * (1, -1) if k else -along
+        yield f"stage {k + 1}" if k else "start", place + _ASIDE_MM * away, _stage_colour(k)
+    place, along = circuit.stages[last].at(circuit.stages[last].length_mm)
+    yield "end", place + _ASIDE_MM * along, _stage_colour(last)
