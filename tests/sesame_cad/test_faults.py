@@ -75,7 +75,9 @@ def test_a_bitmap_shows_red(bad_file, faults_of_command, tmp_path):
         ["design", str(bad_file), "-o", str(tmp_path / "o"), "--faults", str(picture)]
     )
     pixels = np.asarray(Image.open(io.BytesIO(picture.read_bytes())).convert("RGB")).astype(int)
-    assert np.sum(np.abs(pixels - (224, 0, 0)).max(axis=2) < 20) > 500
+    red = np.abs(pixels - (224, 0, 0)).max(axis=2) < 20
+    # Circles below the legend; the ten numbers alone would be less.
+    assert np.sum(red[len(red) // 3 :]) > 1000
 
 
 @pytest.mark.parametrize("name", ["faults.pdf", "faults"])
