@@ -3,25 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
-import numpy as np
-from numpy.typing import NDArray
-
-from solver.mesh.loop_mesh import SEGMENTS, loop_fan
-from solver.mesh.triangulation import GAP, Mesh, RoundRegion, Wire, unrefined
-
-Vectors = NDArray[np.float64]
-Indices = NDArray[np.int64]
-
-_EAST, _NORTH, _WEST, _SOUTH = (SEGMENTS // 4 * k for k in range(4))
-
-
-class Between(StrEnum):
-    """What becomes of the cusped gaps that four loops enclose."""
-
-    CUT = "cut"
-    KEPT = "kept"
+from solver.ellipse import semi_axes
+from solver.mesh.curve import Ellipse
+from solver.mesh.drawing import Drawing, Knot
+from solver.mesh.plane_mesh import Between, FabricRegions, plane_mesh
+from solver.mesh.triangulation import Mesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,39 +28,26 @@ class Grid:
         return row * self.columns + column
 
 
-def _merged_vertices(grid: Grid) -> tuple[Indices, int]:
-    """Vertex (loops, 1 + SEGMENTS) of each vertex of each loop's fan, and how many there are."""
-    out = np.empty((len(grid.cells), 1 + SEGMENTS), dtype=np.int64)
-    count = 0
-    for row, column in grid.cells:
-        shared: dict[int, int] = {}
-        if column > 0:
-            shared[1 + _WEST] = int(out[grid.number(row, column - 1), 1 + _EAST])
-        if row > 0:
-            shared[1 + _SOUTH] = int(out[grid.number(row - 1, column), 1 + _NORTH])
-        own = out[grid.number(row, column)]
-        for k in range(1 + SEGMENTS):
-            own[k] = shared.get(k, count)
-            count += k not in shared
-    return out, count
+def grid_curves(grid: Grid, axis_ratio: float) -> tuple[Ellipse, ...]:
+    """Give the loops: equal ellipses of perimeter 2π at the pitch at which they touch."""
+    a, b = semi_axes(axis_ratio)
+    return tuple(Ellipse((2 * a * column, 2 * b * row), (a, b)) for row, column in grid.cells)
 
 
-def _gap_edges(grid: Grid, vertices: Indices) -> Indices:
-    """Vertices (gaps, SEGMENTS) round each gap, counterclockwise, from its southern cusp."""
-    quarter = np.arange(SEGMENTS // 4)
-    # the gap runs along each loop's edge backwards, from the first named side on
-    along = [(0, 1, _WEST), (1, 1, _SOUTH), (1, 0, SEGMENTS), (0, 0, _NORTH)]
-    gaps = [
-        np.concatenate(
-            [
-                vertices[grid.number(r + i, c + j), 1 + (side - quarter) % SEGMENTS]
-                for i, j, side in along
-            ]
-        )
-        for r in range(grid.rows - 1)
-        for c in range(grid.columns - 1)
+def grid_knots(grid: Grid, axis_ratio: float) -> tuple[Knot, ...]:
+    """Give the points in which loops touch their neighbours along x, then along y."""
+    a, b = semi_axes(axis_ratio)
+    along = [
+        Knot((grid.number(r, c), grid.number(r, c + 1)), (2 * a * c + a, 2 * b * r))
+        for r, c in grid.cells
+        if c + 1 < grid.columns
     ]
-    return np.array(gaps, dtype=np.int64).reshape(-1, SEGMENTS)
+    across = [
+        Knot((grid.number(r, c), grid.number(r + 1, c)), (2 * a * c, 2 * b * r + b))
+        for r, c in grid.cells
+        if r + 1 < grid.rows
+    ]
+    return (*along, *across)
 
 
 def array_fan(grid: Grid, between: Between, axis_ratio: float = 1.0) -> Mesh:
@@ -82,25 +56,5 @@ def array_fan(grid: Grid, between: Between, axis_ratio: float = 1.0) -> Mesh:
     Loops that touch share a vertex. Gaps that are kept are fans about their middle, which conform
     with the loops' edges.
     """
-    fan = loop_fan(axis_ratio)
-    pitch = 2 * np.array(fan.rounds[0].semi_axes)
-    vertices, count = _merged_vertices(grid)
-    centres = np.array([(c, r) for r, c in grid.cells]) * pitch
-    points = np.empty((count, 2))
-    points[vertices] = fan.points + centres[:, None, :]
-    triangles = vertices[:, fan.triangles].reshape(-1, 3)
-    region = np.repeat(np.arange(len(centres)), SEGMENTS)
-    if between is Between.KEPT:
-        edges = _gap_edges(grid, vertices)
-        middles = count + np.arange(len(edges))
-        points = np.concatenate([points, points[edges].mean(axis=1)])
-        gap = np.stack(
-            [np.repeat(middles, SEGMENTS), edges.ravel(), np.roll(edges, -1, axis=1).ravel()],
-            axis=1,
-        )
-        triangles = np.concatenate([triangles, gap])
-        region = np.concatenate([region, np.full(len(gap), GAP)])
-    x, y = fan.rounds[0].semi_axes
-    rounds = tuple(RoundRegion((float(cx), float(cy)), (x, y)) for cx, cy in centres)
-    wires = tuple(Wire(loop[1:]) for loop in vertices)
-    return unrefined(points, triangles, region, rounds, wires)
+    drawing = Drawing(grid_curves(grid, axis_ratio), grid_knots(grid, axis_ratio))
+    return plane_mesh(drawing, FabricRegions((True,) * len(grid.cells), between))
