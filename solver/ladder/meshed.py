@@ -10,7 +10,9 @@ from solver.ladder.answer import Answer, Rung
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.omissions import mesh_omissions
 from solver.mesh.scene import ArrayScene
+from solver.mesh.sheet import SheetScene
 from solver.mesh.solve import solve_array, solve_loop_mesh
+from solver.mesh.solve_sheet import solve_sheet
 from solver.scene import LoopScene
 
 FINEST_LOOP = 5
@@ -42,6 +44,13 @@ def by_array_mesh(scene: ArrayScene, reason: str, tolerance: float, *, lenient: 
     return _mesh_answer(found, reason, tolerance, lenient=lenient)
 
 
+def by_sheet_mesh(scene: SheetScene, reason: str, tolerance: float, *, lenient: bool) -> Answer:
+    """Solve any plane scene, on finer and finer meshes."""
+    solve = partial(_sheet, scene)
+    found = _refined(solve, range(1, FINEST_ARRAY + 1), scene.loop, tolerance, lenient=lenient)
+    return _mesh_answer(found, reason, tolerance, lenient=lenient)
+
+
 def _loop(scene: LoopScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
     return solve_loop_mesh(
         scene, refinement=refinement, tension_field=field, allow_unreliable=lenient
@@ -50,6 +59,10 @@ def _loop(scene: LoopScene, refinement: int, *, field: bool, lenient: bool) -> M
 
 def _array(scene: ArrayScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
     return solve_array(scene, refinement=refinement, tension_field=field, allow_unreliable=lenient)
+
+
+def _sheet(scene: SheetScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
+    return solve_sheet(scene, refinement=refinement, tension_field=field, allow_unreliable=lenient)
 
 
 def _refined(

@@ -135,7 +135,8 @@ class Arc:
 class Through:
     """The cubic spline through points; two make a straight line.
 
-    It is smooth everywhere, also where a closed one ends: corners come out rounded.
+    It is smooth everywhere, also where a closed one ends: corners come out rounded. A closed one
+    runs counterclockwise, however its points are given.
 
     Attributes
     ----------
@@ -165,7 +166,11 @@ class Through:
     @property
     def _knots(self) -> Vectors:
         knots = np.array(self.points, dtype=np.float64)
-        return np.concatenate([knots, knots[:1]]) if self.closed else knots
+        if not self.closed:
+            return knots
+        (x, y), (u, v) = knots.T, np.roll(knots, -1, axis=0).T
+        clockwise = np.sum(x * v - u * y) < 0
+        return np.concatenate([knots, knots[:1]])[:: -1 if clockwise else 1]
 
     @cached_property
     def _spline(self) -> CubicSpline:

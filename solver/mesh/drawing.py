@@ -97,8 +97,6 @@ def _knot_parameters(drawing: Drawing, size: float) -> list[dict[float, int]]:
                 )
             rounded = round(parameter, _DIGITS)
             found[k][rounded % 1 if curve.closed else rounded] = number
-        if any(number not in found[k].values() for k in knot.curves):
-            raise SceneError(f"joint {number} is at the same point as another")
     return found
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.scene import ArrayScene
+from solver.mesh.sheet import SheetScene
 from solver.mesh.triangulation import Mesh
 from solver.scene import LoopScene
 
@@ -20,7 +21,7 @@ class MeshEquilibrium:
 
     Attributes
     ----------
-    scene : LoopScene or ArrayScene
+    scene : LoopScene, ArrayScene or SheetScene
     mesh : Mesh
         The finest.
     positions : array (n, 3)
@@ -39,7 +40,8 @@ class MeshEquilibrium:
     height : float
         From the lowest to the highest point of all wires, along the axis of their area vector.
     loop_heights : array (w,)
-        The same of each loop along its own axis.
+        The same of each loop along its own axis; of an open wire, how far it comes from the line
+        between its ends.
     coarser_height : float
         The height on the mesh before the last, which is solved to a millionth of its energy; not a
         number when there is only one.
@@ -50,9 +52,13 @@ class MeshEquilibrium:
         of those that are wrinkled or slack.
     tension_field : bool
         Whether the fabric was let wrinkle instead of bearing compression.
+    perimeter : float
+        Length of one loop's wire as it lies flat, the mean of all; units of R.
+    free_motions : int or None
+        Motions that cost next to nothing, beside rigid ones; counted in general scenes.
     """
 
-    scene: LoopScene | ArrayScene
+    scene: LoopScene | ArrayScene | SheetScene
     mesh: Mesh
     positions: Vectors
     status: str
@@ -67,6 +73,8 @@ class MeshEquilibrium:
     smallest_stress: float
     compressed_fraction: float
     tension_field: bool = False
+    perimeter: float = 2 * np.pi
+    free_motions: int | None = None
 
     @property
     def energy(self) -> float:
@@ -80,5 +88,5 @@ class MeshEquilibrium:
 
     @property
     def height_over_perimeter(self) -> float:
-        """Height over the length of one loop's wire, h/(2π R)."""
-        return self.height / (2 * np.pi)
+        """Height over the length of one loop's wire."""
+        return self.height / self.perimeter

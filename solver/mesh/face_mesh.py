@@ -58,11 +58,28 @@ def fan_about(points: Vectors, face: Face, centre: Vectors) -> Filling:
 
 
 def _fan(points: Vectors, face: Face) -> Filling | None:
-    """Fan about the middle, where the face is small and simple."""
+    """Fan about the middle, where the face is small, simple and seen from there."""
     rim = np.unique(face.outline)
     if face.holes or len(rim) < len(face.outline) or len(rim) > MOST_SPOKES:
         return None
-    return fan_about(points, face, points[face.outline].mean(axis=0)[None])
+    middle = points[face.outline].mean(axis=0)[None]
+    return fan_about(points, face, middle) if _sees_arcs(points, face, middle) else None
+
+
+def _sees_arcs(points: Vectors, face: Face, centre: Vectors) -> bool:
+    """Whether spokes leave the rim into the region also where its edges become arcs.
+
+    In a cusp that can fail though the edges, chords of the arcs, leave room. One-sided differences
+    of second order along the rim stand for the arcs' tangents.
+    """
+    rim = points[face.outline]
+    spokes = centre - rim
+    for way in (1, -1):
+        near, far = (np.roll(rim, -way * step, axis=0) for step in (1, 2))
+        tangent = way * (4 * near - 3 * rim - far)
+        if (tangent[:, 0] * spokes[:, 1] - tangent[:, 1] * spokes[:, 0] <= 0).any():
+            return False
+    return True
 
 
 def _sharpest(points: Vectors, filling: Filling) -> float:

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from solver.checks import CONTACT, LARGEST_WIRE_STRAIN, SLACK, TWIST, writhe
 from solver.mesh.equilibrium import MeshEquilibrium
-from solver.mesh.scene import ArrayScene
 from solver.mesh.triangulation import Wire
 from solver.omitted import OmittedTerm
+from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
 
@@ -20,11 +20,11 @@ _NEIGHBOURS = 0.25
 
 def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
     """Measure what the model leaves out, on the shape that it gave."""
-    loops = [found.positions[wire.vertices] for wire in found.mesh.wires]
+    loops = [found.positions[wire.vertices] for wire in found.mesh.wires if wire.closed]
     strain = max(_wire_strain(found, wire) for wire in found.mesh.wires)
-    gap = min(_smallest_gap(loop) for loop in loops)
-    turns = max(abs(writhe(_thinned(loop))) for loop in loops)
-    scene = found.scene.loop if isinstance(found.scene, ArrayScene) else found.scene
+    nearness = max((_edge_length(loop) / _smallest_gap(loop) for loop in loops), default=0.0)
+    turns = max((abs(writhe(_thinned(loop))) for loop in loops), default=0.0)
+    scene = found.scene if isinstance(found.scene, LoopScene) else found.scene.loop
     slack = OmittedTerm(
         SLACK,
         "largest compressive stress / E_f",
@@ -37,9 +37,9 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
         OmittedTerm(
             CONTACT,
             "distance of neighbouring wire points / smallest distance across a loop",
-            _edge_length(loops[0]) / gap,
-            matters=gap < _edge_length(loops[0]),
-            fatal=gap < _edge_length(loops[0]) / 2,
+            nearness,
+            matters=nearness > 1,
+            fatal=nearness > 2,
         ),
         OmittedTerm(TWIST, "writhe of a loop", turns, matters=turns > 1e-3),
         OmittedTerm(
@@ -48,11 +48,23 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
             strain,
             matters=strain > LARGEST_WIRE_STRAIN,
         ),
+        *_weight(found),
     )
 
 
+def _weight(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
+    """Weight, which would pick one of the shapes that free motions lead through."""
+    if found.free_motions is None:
+        return ()
+    term, measure = "weight among free motions", "motions that cost next to nothing"
+    return (OmittedTerm(term, measure, found.free_motions, matters=found.free_motions > 0),)
+
+
 def _wire_strain(found: MeshEquilibrium, wire: Wire) -> float:
-    now, flat = (_edges(points[wire.vertices]) for points in (found.positions, found.mesh.points))
+    now, flat = (
+        np.linalg.norm(points[wire.edges[:, 1]] - points[wire.edges[:, 0]], axis=1)
+        for points in (found.positions, found.mesh.points)
+    )
     return float(np.abs(now / flat - 1).max())
 
 

@@ -23,12 +23,12 @@ class Track:
 
     @property
     def between(self) -> Vectors:
-        """Parameters (e,) in the middle of each edge."""
+        """Parameters (e,) in the middle of each edge; round a closed curve they go on beyond 1."""
         following = np.roll(self.parameters, -1)
         if not self.curve.closed:
             return ((self.parameters + following) / 2)[:-1]
         following[-1] += 1
-        return (self.parameters + following) / 2 % 1
+        return (self.parameters + following) / 2
 
     def refined(self) -> Track:
         """Give the same with a vertex more on each edge."""
