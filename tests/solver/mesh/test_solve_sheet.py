@@ -147,6 +147,14 @@ def test_the_unit_of_length_plays_no_part():
     assert other.perimeter == pytest.approx(found.perimeter / 2.5)
 
 
+def test_a_loop_of_twice_the_size_is_the_same_loop_at_eight_times_the_beta():
+    wire = WireStiffness(8 * 0.0145, 2000.0)
+    large = circle_scene(LOOP, ((1.0, 0.0),), (2.0,), (), wires=(wire,))
+    found, one = solve_sheet(large, refinement=1), solve_loop_mesh(LOOP, refinement=1)
+    assert found.energy == pytest.approx(4 * one.energy, rel=1e-8)
+    assert found.height == pytest.approx(2 * one.height, rel=1e-4)
+
+
 def test_a_small_loop_is_a_loop_of_larger_beta():
     small = solve_sheet(_pair(contact=Contact.POINT), refinement=1).loop_heights[1]
     alone = solve_loop_mesh(LoopScene(0.3, 0.0145 / 0.7**3, 0.3), refinement=1)
