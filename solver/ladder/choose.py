@@ -14,9 +14,10 @@ from solver.errors import SceneError
 from solver.ladder.answer import Answer, Rung
 from solver.ladder.fidelity import Fidelity
 from solver.ladder.law import by_law, law_error
-from solver.ladder.meshed import by_array_mesh, by_loop_mesh
+from solver.ladder.meshed import by_array_mesh, by_loop_mesh, by_sheet_mesh
 from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene, Contact
+from solver.mesh.sheet import SheetScene
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 
 _ASKED = "asked for"
@@ -28,7 +29,7 @@ def prepare_tables() -> None:
 
 
 def solve_scene(
-    scene: LoopScene | ArrayScene,
+    scene: LoopScene | ArrayScene | SheetScene,
     *,
     fidelity: Fidelity = Fidelity.AUTO,
     tolerance: float = 1e-3,
@@ -50,18 +51,24 @@ def solve_scene(
     NotConvergedError
         When there is no shape to rely on.
     """
+    if isinstance(scene, SheetScene):
+        return _solve_sheet(scene, fidelity, tolerance, lenient=allow_unreliable)
     if isinstance(scene, ArrayScene):
         return _solve_array(scene, fidelity, tolerance, lenient=allow_unreliable)
+    return _solve_loop(scene, fidelity, tolerance, lenient=allow_unreliable)
+
+
+def _solve_loop(scene: LoopScene, fidelity: Fidelity, tolerance: float, *, lenient: bool) -> Answer:
     if fidelity is Fidelity.SCALING:
         return by_law(scene, _ASKED)
     if fidelity is Fidelity.MESH:
-        return by_loop_mesh(scene, _ASKED, tolerance, lenient=allow_unreliable)
+        return by_loop_mesh(scene, _ASKED, tolerance, lenient=lenient)
     if fidelity is Fidelity.COMPACT:
-        return _by_compact(scene, _ASKED, tolerance, lenient=allow_unreliable)
+        return _by_compact(scene, _ASKED, tolerance, lenient=lenient)
     error = law_error(scene)
     if error <= tolerance:
         return by_law(scene, f"its error, at most {error:.2g}, is within the tolerance")
-    return _by_compact_or_mesh(scene, tolerance, lenient=allow_unreliable)
+    return _by_compact_or_mesh(scene, tolerance, lenient=lenient)
 
 
 def _by_compact_or_mesh(scene: LoopScene, tolerance: float, *, lenient: bool) -> Answer:
@@ -128,3 +135,12 @@ def _solve_array(
         raise SceneError(f"these loops do not tile; {fidelity} solves one loop, mesh solves arrays")
     reason = _ASKED if fidelity is Fidelity.MESH else "the loops of this array act on each other"
     return by_array_mesh(scene, reason, tolerance, lenient=lenient)
+
+
+def _solve_sheet(
+    scene: SheetScene, fidelity: Fidelity, tolerance: float, *, lenient: bool
+) -> Answer:
+    if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
+        raise SceneError(f"{fidelity} solves one loop of its own; mesh solves any scene")
+    reason = _ASKED if fidelity is Fidelity.MESH else "only a mesh knows scenes of many curves"
+    return by_sheet_mesh(scene, reason, tolerance, lenient=lenient)

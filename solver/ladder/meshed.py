@@ -10,12 +10,15 @@ from typing import Protocol
 from solver.checks import CONTACT
 from solver.errors import NotConvergedError
 from solver.ladder.answer import Answer, Rung
+from solver.mesh.any_scene import MeshScene, fabric_of
 from solver.mesh.barrier import REMEDY, contact_available
 from solver.mesh.contact_solve import solve_in_contact
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.omissions import mesh_omissions
 from solver.mesh.scene import ArrayScene
+from solver.mesh.sheet import SheetScene
 from solver.mesh.solve import solve_array, solve_loop_mesh
+from solver.mesh.solve_sheet import solve_sheet
 from solver.mesh.thickness import REACH
 from solver.scene import LoopScene
 
@@ -42,7 +45,7 @@ class _Solve(Protocol):
 class _InContact:
     """Solves again, with contact, what meets itself; from then on every mesh."""
 
-    def __init__(self, scene: LoopScene | ArrayScene) -> None:
+    def __init__(self, scene: MeshScene) -> None:
         self._scene = scene
         self._last: MeshEquilibrium | None = None
 
@@ -78,6 +81,13 @@ def by_array_mesh(scene: ArrayScene, reason: str, tolerance: float, *, lenient: 
     return _mesh_answer(found, reason, tolerance, lenient=lenient)
 
 
+def by_sheet_mesh(scene: SheetScene, reason: str, tolerance: float, *, lenient: bool) -> Answer:
+    """Solve any plane scene, on finer and finer meshes."""
+    solve = partial(_sheet, scene)
+    found = _refined(solve, range(1, FINEST_ARRAY + 1), scene, tolerance, lenient=lenient)
+    return _mesh_answer(found, reason, tolerance, lenient=lenient)
+
+
 def _loop(scene: LoopScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
     return solve_loop_mesh(
         scene, refinement=refinement, tension_field=field, allow_unreliable=lenient
@@ -88,16 +98,20 @@ def _array(scene: ArrayScene, refinement: int, *, field: bool, lenient: bool) ->
     return solve_array(scene, refinement=refinement, tension_field=field, allow_unreliable=lenient)
 
 
+def _sheet(scene: SheetScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
+    return solve_sheet(scene, refinement=refinement, tension_field=field, allow_unreliable=lenient)
+
+
 def _refined(
     solve: _Solve,
     refinements: range,
-    scene: LoopScene | ArrayScene,
+    scene: MeshScene,
     tolerance: float,
     *,
     lenient: bool,
 ) -> MeshEquilibrium:
     """Solve on finer and finer meshes; from where plain fabric goes slack, with a tension field."""
-    loop = scene.loop if isinstance(scene, ArrayScene) else scene
+    loop = fabric_of(scene)
     knows_field = loop.modulus_ratio == 1
     contact = _InContact(scene)
     field = False

@@ -15,6 +15,7 @@ from solver.mesh.problem import MeshProblem
 from solver.mesh.rigid import lowest_eigenvalue
 from solver.mesh.scene import ArrayScene
 from solver.mesh.search import SparseMinimum
+from solver.mesh.sheet import SheetScene
 from solver.mesh.triangulation import Mesh
 from solver.scene import LoopScene
 
@@ -31,7 +32,11 @@ def _fault(minimum: SparseMinimum) -> str:
 
 
 def account(
-    scene: LoopScene | ArrayScene, problem: MeshProblem, solved: list[Solved], *, lenient: bool
+    scene: LoopScene | ArrayScene | SheetScene,
+    problem: MeshProblem,
+    solved: list[Solved],
+    *,
+    lenient: bool,
 ) -> MeshEquilibrium:
     """Look at the last of a sequence of minima, the first of which may be a rough one."""
     last = solved[-1]
@@ -42,6 +47,7 @@ def account(
     energy = last.energy
     fabric = problem.fabric_on(len(problem.meshes) - 1)
     corners = positions[fabric.vertices]
+    bare = len(corners) == 0
     return MeshEquilibrium(
         scene=scene,
         mesh=mesh,
@@ -55,8 +61,8 @@ def account(
         height=total_height(positions, mesh.wires),
         loop_heights=loop_heights(positions, mesh.wires),
         coarser_height=_coarser_height(problem, solved),
-        smallest_stress=float(fabric.smallest_stress(corners).min()),
-        compressed_fraction=float(np.mean(fabric.compressed(corners))),
+        smallest_stress=0.0 if bare else float(fabric.smallest_stress(corners).min()),
+        compressed_fraction=0.0 if bare else float(np.mean(fabric.compressed(corners))),
         tension_field=problem.tension_field,
     )
 

@@ -38,7 +38,7 @@ class Solved:
 
 def mass_of(mesh: Mesh) -> Vectors:
     """Weight (n,) of each vertex in mean squares: its share of fabric over that of one loop."""
-    return mesh.vertex_areas / np.pi
+    return mesh.vertex_weights / np.pi
 
 
 def solved_on(

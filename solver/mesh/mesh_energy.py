@@ -37,6 +37,10 @@ class Energy(Protocol):
         """Energy, gradient (n, 3) and the entries (nnz,) of the Hessian's lower triangle."""
         ...
 
+    def excess(self, positions: Vectors, move: Vectors, reached: Vectors) -> Vectors:
+        """Pull (3n,) of the stretch that a move (n, 3) brings beyond what is linear in it."""
+        ...
+
 
 @dataclass(frozen=True)
 class MeshEnergy:

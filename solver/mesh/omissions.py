@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.checks import CLOSENESS, CONTACT, LARGEST_WIRE_STRAIN, SLACK, TWIST, writhe
+from solver.mesh.any_scene import fabric_of
 from solver.mesh.equilibrium import MeshEquilibrium
-from solver.mesh.scene import ArrayScene
 from solver.mesh.triangulation import Wire
 from solver.omitted import OmittedTerm
 
@@ -18,10 +18,10 @@ MOST_WRITHE_POINTS = 160
 
 def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
     """Measure what the model leaves out, on the shape that it gave."""
-    loops = [found.positions[wire.vertices] for wire in found.mesh.wires]
+    loops = [found.positions[wire.vertices] for wire in found.mesh.wires if wire.closed]
     strain = max(_wire_strain(found, wire) for wire in found.mesh.wires)
-    turns = max(abs(writhe(_thinned(loop))) for loop in loops)
-    scene = found.scene.loop if isinstance(found.scene, ArrayScene) else found.scene
+    turns = max((abs(writhe(_thinned(loop))) for loop in loops), default=0.0)
+    scene = fabric_of(found.scene)
     slack = OmittedTerm(
         SLACK,
         "largest compressive stress / E_f",
@@ -39,6 +39,7 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
             strain,
             matters=strain > LARGEST_WIRE_STRAIN,
         ),
+        *_weight(found),
     )
 
 
@@ -56,13 +57,20 @@ def _contact(found: MeshEquilibrium) -> OmittedTerm:
     )
 
 
+def _weight(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
+    """Weight, which would pick one of the shapes that free motions lead through."""
+    if found.free_motions is None:
+        return ()
+    term, measure = "weight among free motions", "motions that cost next to nothing"
+    return (OmittedTerm(term, measure, found.free_motions, matters=found.free_motions > 0),)
+
+
 def _wire_strain(found: MeshEquilibrium, wire: Wire) -> float:
-    now, flat = (_edges(points[wire.vertices]) for points in (found.positions, found.mesh.points))
+    now, flat = (
+        np.linalg.norm(points[wire.edges[:, 1]] - points[wire.edges[:, 0]], axis=1)
+        for points in (found.positions, found.mesh.points)
+    )
     return float(np.abs(now / flat - 1).max())
-
-
-def _edges(loop: Vectors) -> Vectors:
-    return np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
 
 
 def _thinned(loop: Vectors) -> Vectors:

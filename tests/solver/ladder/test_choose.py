@@ -12,7 +12,11 @@ from solver.ladder.choose import solve_scene
 from solver.ladder.fidelity import Fidelity
 from solver.ladder.law import law_error
 from solver.mesh.array_mesh import Between
-from solver.mesh.scene import ArrayScene
+from solver.mesh.curve import circle, line
+from solver.mesh.rod_energy import WireStiffness
+from solver.mesh.scene import ArrayScene, Contact
+from solver.mesh.sheet import Joint, SheetScene, SheetWire
+from solver.mesh.solve_sheet import solve_sheet
 from solver.reading import Reading
 from solver.scene import LoopScene
 
@@ -79,6 +83,36 @@ def test_arrays_that_act_on_each_other_are_meshed():
 def test_one_loop_rungs_refuse_arrays_that_do_not_tile(fidelity):
     with pytest.raises(SceneError, match="mesh"):
         solve_scene(ArrayScene(LOOP, 2, 2, Between.KEPT), fidelity=fidelity)
+
+
+def test_any_scene_is_meshed_until_it_is_near_enough():
+    """A wire across a loop: no other rung knows it."""
+    loop = SheetWire(circle((0.0, 0.0), 1.0), WireStiffness(0.0145, 1000.0))
+    across = SheetWire(line((-1.0, 0.0), (1.0, 0.0)), WireStiffness(0.0145, 1000.0))
+    ends = tuple(Joint((0, 1), (x, 0.0), Contact.POINT) for x in (-1.0, 1.0))
+    scene = SheetScene(LOOP, (loop, across), ends)
+    answer = solve_scene(scene, tolerance=0.01)
+    assert answer.rung is Rung.MESH
+    assert answer.height_error <= 0.01
+    finer = solve_sheet(scene, refinement=3)
+    exact = pytest.approx(finer.height_over_perimeter, rel=2 * answer.height_error)
+    assert answer.height_over_perimeter == exact
+    assert {"fabric stretch", "wire bending"} <= set(answer.terms)
+    for fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
+        with pytest.raises(SceneError, match="mesh solves any scene"):
+            solve_scene(scene, fidelity=fidelity)
+
+
+def test_free_hinges_are_told():
+    rods = (WireStiffness(0.2, 1000.0),) * 2
+    rings = tuple(
+        SheetWire(circle((2.0 * k, 0.0), 1.0), rod, spanned=False) for k, rod in enumerate(rods)
+    )
+    scene = SheetScene(LOOP, rings, (Joint((0, 1), (1.0, 0.0)),))
+    answer = solve_scene(scene, tolerance=0.05)
+    weight = next(o for o in answer.omitted if "weight" in o.term)
+    assert weight.matters
+    assert weight.value == 1
 
 
 def test_the_law_refuses_ellipses():
