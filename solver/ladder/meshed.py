@@ -8,7 +8,7 @@ from typing import Protocol
 from solver.errors import NotConvergedError
 from solver.ladder.answer import Answer, Rung
 from solver.mesh.equilibrium import MeshEquilibrium
-from solver.mesh.omissions import mesh_omissions
+from solver.mesh.omissions import mesh_omissions, wrinkles_escape
 from solver.mesh.scene import ArrayScene
 from solver.mesh.solve import solve_array, solve_loop_mesh
 from solver.scene import LoopScene
@@ -63,7 +63,7 @@ def _refined(
         if not field:
             # a plain solve that fails may be one that wrinkles: the tension field has its turn
             found = solve(refinement, field=False, lenient=lenient or knows_field)
-            slack = found.smallest_stress < 0 < loop.strain
+            slack = loop.strain > 0 and wrinkles_escape(found)
             field = knows_field and (slack or found.status != "converged")
         if field:
             found = solve(refinement, field=True, lenient=lenient)

@@ -11,13 +11,14 @@ from solver.errors import SceneError
 from solver.loop_energy import scene_membrane
 from solver.mesh.array_mesh import array_fan
 from solver.mesh.bonds import bond_energy
-from solver.mesh.elements import Elements
 from solver.mesh.loop_mesh import loop_fan
-from solver.mesh.mesh_energy import MeshEnergy, mesh_energy
+from solver.mesh.mesh_energy import Family, MeshEnergy, mesh_energy
 from solver.mesh.rod_energy import WireStiffness, rod_energies
 from solver.mesh.scene import ArrayScene, Contact, loop_wire
+from solver.mesh.star_bending import star_bending
 from solver.mesh.triangle_energy import TriangleEnergy, triangle_energy
 from solver.mesh.triangulation import Mesh, refinements
+from solver.mesh.wire_twist import twist_energies
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
@@ -45,6 +46,8 @@ class MeshProblem:
         Whether wires that touch keep their tangents parallel.
     tension_field : bool
         Whether the fabric wrinkles instead of bearing compression.
+    alpha : float
+        α of the fabric's bending.
     """
 
     meshes: tuple[Mesh, ...]
@@ -53,6 +56,7 @@ class MeshProblem:
     wires: tuple[WireStiffness, ...]
     bonded: bool
     tension_field: bool = False
+    alpha: float = 0.0
 
     def fabric_on(self, level: int) -> TriangleEnergy:
         """Fabric on one of the meshes."""
@@ -64,13 +68,16 @@ class MeshProblem:
         """Energy on one of the meshes."""
         mesh = self.meshes[level]
         bending, stretch = rod_energies(mesh, self.wires)
-        families: dict[str, Elements] = {
+        families: dict[str, Family] = {
             TENSION_FIELD_TERM if self.tension_field else "fabric stretch": self.fabric_on(level),
             "wire bending": bending,
             "wire stretch": stretch,
         }
         if self.bonded:
             families["bonds"] = bond_energy(mesh, _BOND * max(w.beta for w in self.wires))
+        if self.alpha > 0:
+            families["fabric bending"] = star_bending(mesh, self.alpha)
+        families["wire twist"] = twist_energies(mesh, self.wires)
         return mesh_energy(families, len(mesh.points))
 
     def softened(self, axial_stiffness: float) -> MeshProblem:
@@ -97,6 +104,7 @@ def loop_problem(scene: LoopScene, refinement: int, *, tension_field: bool = Fal
         wires=(loop_wire(scene),),
         bonded=False,
         tension_field=tension_field,
+        alpha=scene.alpha,
     )
 
 
@@ -114,4 +122,5 @@ def array_problem(
         wires=scene.stiffness,
         bonded=bonded,
         tension_field=tension_field,
+        alpha=scene.loop.alpha,
     )
