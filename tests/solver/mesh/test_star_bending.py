@@ -135,6 +135,13 @@ def test_the_compact_solver_agrees(alpha, axis_ratio):
     assert found[-1].lowest_eigenvalue > -1e-4
 
 
+def test_stiff_fabric_on_a_fine_mesh():
+    """Straight from the coarser mesh, whose kinks it inherits, it would crush triangles."""
+    found = solve_loop_mesh(LoopScene(0.3, 0.0145, 0.3, alpha=1.0), refinement=4)
+    assert found.status == "converged"
+    assert found.height_over_perimeter == pytest.approx(0.131305, rel=1e-3)
+
+
 def test_an_array_with_stiff_fabric():
     scenes = [
         ArrayScene(LoopScene(0.3, 0.02, 0.3, alpha=alpha), 1, 2, Between.CUT) for alpha in (0, 1e-3)
