@@ -17,6 +17,7 @@ from solver.mesh.scene import ArrayScene
 from solver.mesh.search import SparseMinimum
 from solver.mesh.sheet import SheetScene
 from solver.mesh.triangulation import Mesh
+from solver.mesh.wire_twist import twist_energies, twist_strays
 from solver.scene import LoopScene
 
 
@@ -42,7 +43,9 @@ def account(
     last = solved[-1]
     mesh, positions = problem.meshes[-1], last.minimum.positions
     status = _fault(last.minimum)
-    if not (last.minimum.converged or lenient):
+    if twist_strays(twist_energies(mesh, problem.wires), positions):
+        status = "the wire's twist is wrong: a loop has turned inside out; raise beta, lower strain"
+    if not (status == "converged" or lenient):
         raise NotConvergedError(status)
     energy = last.energy
     fabric = problem.fabric_on(len(problem.meshes) - 1)

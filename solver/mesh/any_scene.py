@@ -37,6 +37,13 @@ def with_strain(scene: MeshScene, strain: float) -> MeshScene:
     return replace(scene, loop=replace(scene.loop, strain=strain))
 
 
+def twisted(scene: MeshScene, twist_ratio: float) -> MeshScene:
+    """Give the same with that ρ of every wire."""
+    if isinstance(scene, LoopScene):
+        return replace(scene, twist_ratio=twist_ratio)
+    return scene.twisted(twist_ratio)
+
+
 def thickest_wire(scene: MeshScene) -> float:
     """Diameter of the thickest wire, in the scene's unit of length; see `solver.round_wire`."""
     if isinstance(scene, SheetScene):

@@ -8,7 +8,6 @@ prestrain from there, with barriers and with steps that pass through nothing.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -28,8 +27,8 @@ from solver.mesh.search import SearchLimits
 from solver.mesh.self_contact import SelfContact
 from solver.mesh.sheet import SheetScene
 from solver.mesh.sheet_unit import in_unit_of
-from solver.mesh.solve import solve_array, solve_loop_mesh
-from solver.mesh.solve_sheet import free_motions, solve_sheet
+from solver.mesh.solve_any import solve_on_mesh
+from solver.mesh.solve_sheet import free_motions
 from solver.mesh.thickness import thickness_barriers
 
 Vectors = NDArray[np.float64]
@@ -39,15 +38,6 @@ _FREE_PARTS = (0.5, 0.25, 0.1, 0.03, 0.01, 0.0)
 _RAISES = 4
 """Steps from there to the whole prestrain."""
 _ON_THE_WAY = SearchLimits(decrease=1e-4, steps=100)
-
-
-def _solved_freely(scene: MeshScene, refinement: int, *, field: bool) -> MeshEquilibrium:
-    if isinstance(scene, SheetScene):
-        return solve_sheet(scene, refinement=refinement, tension_field=field, allow_unreliable=True)
-    solve: Callable[..., MeshEquilibrium] = (
-        solve_array if isinstance(scene, ArrayScene) else solve_loop_mesh
-    )
-    return solve(scene, refinement=refinement, tension_field=field, allow_unreliable=True)
 
 
 def _problem(scene: MeshScene, refinement: int, *, field: bool) -> MeshProblem:
@@ -70,7 +60,12 @@ def _free_shape(
     """Give a prestrain at which the shape keeps its thickness, and the positions (n, 3) there."""
     strain = fabric_of(scene).strain
     for part in _FREE_PARTS:
-        found = _solved_freely(with_strain(scene, part * strain), refinement, field=field)
+        found = solve_on_mesh(
+            with_strain(scene, part * strain),
+            refinement,
+            tension_field=field,
+            allow_unreliable=True,
+        )
         clear = math.isfinite(energy.value(found.positions))
         if clear and found.distances.crossings == 0:
             return part * strain, found.positions

@@ -13,16 +13,17 @@ from solver.errors import SceneError
 from solver.loop_energy import scene_membrane
 from solver.mesh.array_mesh import array_fan
 from solver.mesh.bonds import bond_energy
-from solver.mesh.elements import Elements
 from solver.mesh.levelling import levelling_energy
 from solver.mesh.loop_mesh import SEGMENTS, loop_fan
-from solver.mesh.mesh_energy import MeshEnergy, mesh_energy
+from solver.mesh.mesh_energy import Family, MeshEnergy, mesh_energy
 from solver.mesh.plane_mesh import plane_mesh
 from solver.mesh.rod_energy import WireStiffness, rod_energies
 from solver.mesh.scene import ArrayScene, Contact, loop_wire
 from solver.mesh.sheet import SheetScene
+from solver.mesh.star_bending import star_bending
 from solver.mesh.triangle_energy import TriangleEnergy, triangle_energy
 from solver.mesh.triangulation import Mesh, refinements
+from solver.mesh.wire_twist import twist_energies
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
@@ -59,6 +60,8 @@ class MeshProblem:
         Vertices at which wires share no more than the point, though others are bonded.
     levelling : float
         Stiffness, in units of E_f t, with which all is drawn to the plane.
+    alpha : float
+        α of the fabric's bending.
     """
 
     meshes: tuple[Mesh, ...]
@@ -69,6 +72,7 @@ class MeshProblem:
     tension_field: bool = False
     loose: frozenset[int] = frozenset()
     levelling: float = 0.0
+    alpha: float = 0.0
 
     def fabric_on(self, level: int) -> TriangleEnergy:
         """Fabric on one of the meshes."""
@@ -80,7 +84,7 @@ class MeshProblem:
         """Energy on one of the meshes."""
         mesh = self.meshes[level]
         bending, stretch = rod_energies(mesh, self.wires)
-        families: dict[str, Elements] = {
+        families: dict[str, Family] = {
             TENSION_FIELD_TERM if self.tension_field else "fabric stretch": self.fabric_on(level),
             "wire bending": bending,
             "wire stretch": stretch,
@@ -90,6 +94,9 @@ class MeshProblem:
             families["bonds"] = bond_energy(mesh, stiffness, self.loose)
         if self.levelling > 0:
             families[LEVELLING_TERM] = levelling_energy(mesh, self.levelling)
+        if self.alpha > 0:
+            families["fabric bending"] = star_bending(mesh, self.alpha)
+        families["wire twist"] = twist_energies(mesh, self.wires)
         return mesh_energy(families, len(mesh.points))
 
     def softened(self, axial_stiffness: float) -> MeshProblem:
@@ -121,6 +128,7 @@ def loop_problem(
         wires=(loop_wire(scene),),
         bonded=False,
         tension_field=tension_field,
+        alpha=scene.alpha,
     )
 
 
@@ -137,6 +145,7 @@ def array_problem(
         wires=scene.stiffness,
         bonded=bonded,
         tension_field=tension_field,
+        alpha=scene.loop.alpha,
     )
 
 
@@ -162,6 +171,7 @@ def sheet_problem(
         tension_field=tension_field,
         loose=frozenset(loose),
         levelling=_LEVELLING if hinged else 0.0,
+        alpha=scene.loop.alpha,
     )
 
 

@@ -27,7 +27,7 @@ class SheetWire:
     ----------
     curve : PlaneCurve
     stiffness : WireStiffness
-        β, k and κ0 in the units of the scene.
+        β, k, κ0 and ρ in the units of the scene.
     spanned : bool
         Whether fabric spans what a closed wire encloses.
     """
@@ -56,8 +56,8 @@ class SheetScene:
     Attributes
     ----------
     loop : LoopScene
-        Its fabric is the scene's: strain, poisson, reading and modulus_ratio. Its own wire and
-        shape play no part.
+        Its fabric is the scene's: strain, poisson, reading, modulus_ratio and alpha. Its own wire
+        and shape play no part.
     wires : tuple of SheetWire
     joints : tuple of Joint
     between : Between
@@ -92,6 +92,13 @@ class SheetScene:
                 )
             if not 0 <= own.natural_curvature < np.inf:
                 raise SceneError(f"wire {k}: natural_curvature must be at least 0 and finite")
+            if not 0 <= own.twist_ratio < np.inf:
+                raise SceneError(f"wire {k}: twist_ratio must be at least 0 and finite")
+            if own.twist_ratio > 0 and own.natural_curvature > 0:
+                raise SceneError(
+                    f"wire {k}: twist is modelled for a straight wire only; let twist_ratio or "
+                    "natural_curvature be 0"
+                )
         if not all(outline.closed for outline in self.outlines):
             raise SceneError("an outline of fabric must be a closed curve")
         for number, joint in enumerate(self.joints):
@@ -142,6 +149,13 @@ class SheetScene:
     def stiffness(self) -> tuple[WireStiffness, ...]:
         """Each wire's."""
         return tuple(wire.stiffness for wire in self.wires)
+
+    def twisted(self, twist_ratio: float) -> SheetScene:
+        """Give the same with that ρ of every wire."""
+        wires = tuple(
+            replace(w, stiffness=replace(w.stiffness, twist_ratio=twist_ratio)) for w in self.wires
+        )
+        return replace(self, wires=wires)
 
     def in_units_of(self, unit: float) -> SheetScene:
         """Give the same scene with lengths in a unit that is so many of the present one.

@@ -44,7 +44,7 @@ def _moved_by(angle):
 @pytest.mark.parametrize("name", ["wire stretch", "fabric stretch"])
 def test_the_excess_is_what_is_not_linear_in_the_move(name):
     """It grows with the square of the move."""
-    elements = ENERGY.families[name]
+    (elements,) = ENERGY.families[name]
     rng = np.random.default_rng(0)
     positions = embedded(MESH.points) + rng.normal(0, 0.01, (len(MESH.points), 3))
     direction = rng.normal(size=positions.shape)
@@ -65,7 +65,7 @@ def test_the_excess_is_what_is_not_linear_in_the_move(name):
 
 def test_excess_of_no_move_is_the_change_of_the_force():
     """Of a wire that grows without turning."""
-    wire = ENERGY.families["wire stretch"]
+    (wire,) = ENERGY.families["wire stretch"]
     flat = embedded(MESH.points)
     grown = 1e-3 * flat
     nothing = np.zeros_like(flat)
