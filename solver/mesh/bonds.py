@@ -97,7 +97,7 @@ def _tangent_weights(points: Vectors, before: int, at: int, after: int) -> Vecto
     """Weights (3,) of the vertices before, after and at a contact in the tangent there.
 
     It is that of the parabola through the three, so that edges of different length do not turn it:
-    the differences on both sides, each weighted by the other's length.
+    the differences on both sides, each weighted by the other's length. On a circle it is exact.
     """
     back, ahead = (float(np.linalg.norm(points[k] - points[at])) for k in (before, after))
     return np.array([-ahead / back, back / ahead, ahead / back - back / ahead])

@@ -58,8 +58,8 @@ def test_tangents_are_parallel_though_edges_differ(b, c):
     bonds = bond_energy(mesh, 1.0)
     assert len(bonds.vertices) == 3
     flat = embedded(mesh.points)[bonds.vertices]
-    # the tangent of a parabola through points of a circle errs with the square of their distance
-    assert bonds.energies(flat).max() < 2e-5
+    # three points of a circle give its tangent exactly
+    assert bonds.energies(flat).max() < 1e-12
     assert len(bond_energy(mesh, 1.0, frozenset({0, 2})).vertices) == 1
 
 
