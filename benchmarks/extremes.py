@@ -53,7 +53,10 @@ def corners():
         yield f"axis ratio {ratio:g}", {**BASE, "beta": 0.025, "axis_ratio": ratio}
     for ratio in (0.1, 1.1, 10.0, 1e6):
         yield f"modulus ratio {ratio:g}", {**BASE, "modulus_ratio": ratio}
-    yield "α = 1", {**BASE, "alpha": 1.0}
+    for alpha in (2.4e-5, 1e-3, 0.1, 1.0, 2.0):
+        yield f"α = {alpha:g}", {**BASE, "alpha": alpha}
+    for alpha in (1e-6, 1e-4, 1e-2):
+        yield f"α = {alpha:g}, β = 0.002", {**BASE, "beta": 0.002, "alpha": alpha}
     for diameter, wire in ((1e-4, 1e-6), (1e-4, 1e-5), (10.0, 1e-2), (10.0, 1e-3), (0.05, 1e-2)):
         yield f"loop {diameter:g} m, wire {wire:g} m", physical(diameter, wire)
     for fabric_kpa, wire_gpa in ((1e-3, 28.0), (1e9, 28.0), (700.0, 1e-6), (700.0, 1e6)):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.disc_basis import DiscBasis, disc_basis
+from solver.disc_basis import DiscBasis, disc_basis, jet_map
+from solver.fabric_bending import finest_wrinkle, gauss_integral
 from solver.loop_energy import LoopEnergy, edge_speed, scene_membrane
 from solver.membrane import Membrane
 from solver.omitted import OmittedTerm
@@ -23,7 +24,9 @@ CLOSENESS = (
     "number of crossings"
 )
 TWIST = "twist of the wire"
+TWIST_MEASURE = "twist energy of a round wire / energy"
 SLACK = "slack fabric (tension field)"
+GAUSS = "fabric's bending by Gaussian curvature"
 EDGE_POINTS = 256
 WRITHE_POINTS = 48
 LARGEST_WIRE_STRAIN = 0.01
@@ -37,10 +40,13 @@ _FABRIC_NEAR = 0.3
 
 _NEAR_CRESTS = 0.3
 
-_SMALLEST_TWIST = 1e-4
+SMALLEST_TWIST = 1e-4
 """Share of the energy from which twist that was left out is told of."""
 
-_STRAYED = 0.5
+_SMALLEST_GAUSS = 1e-3
+"""Share of the energy from which the rest of a plate's bending is told of."""
+
+STRAYED = 0.5
 """In turns; a wire that passes through itself, or a tangent through its opposite, makes it 2."""
 
 
@@ -175,7 +181,7 @@ def writhe_strays(energy: LoopEnergy, q: Vectors) -> bool:
         return False
     basis = energy.basis
     turns = energy.twist.writhe(basis.along_edge(q), basis.arc)
-    return abs(turns - writhe(LoopShape(basis.unknowns, q).edge(WRITHE_POINTS))) > _STRAYED
+    return abs(turns - writhe(LoopShape(basis.unknowns, q).edge(WRITHE_POINTS))) > STRAYED
 
 
 def _twist_left_out(
@@ -185,8 +191,18 @@ def _twist_left_out(
     if scene.twist_ratio > 0:
         return ()
     share = twist_share(scene, basis, q, energy)
-    measure = "twist energy of a round wire / energy"
-    return (OmittedTerm(TWIST, measure, share, matters=share > _SMALLEST_TWIST),)
+    return (OmittedTerm(TWIST, TWIST_MEASURE, share, matters=share > SMALLEST_TWIST),)
+
+
+def gauss_left_out(
+    alpha: float, poisson: float, curved: float, energy: float
+) -> tuple[OmittedTerm, ...]:
+    """What a plate would have besides α ∫ H² dA, from ∫ K dA; see `solver.fabric_bending`."""
+    if alpha == 0:
+        return ()
+    share = abs((1 - poisson) * alpha / 2 * curved) / energy
+    measure = "its energy in a plate / energy"
+    return (OmittedTerm(GAUSS, measure, share, matters=share > _SMALLEST_GAUSS),)
 
 
 def looked_back(
@@ -199,15 +215,17 @@ def looked_back(
     shape = LoopShape(basis.unknowns, q)
     strain = largest_wire_strain(scene, basis, q)
     wriggle = own_curvature_excess(scene, basis, q)
+    curved = gauss_integral(jet_map(basis) @ q, basis.area) if scene.alpha > 0 else 0.0
     return (
         OmittedTerm(
             SLACK,
             "largest compressive stress / E_f",
             max(0.0, -stress),
-            matters=stress < 0 < scene.strain,
+            matters=scene.strain > 0 and finest_wrinkle(stress, scene.alpha) > basis.degree,
         ),
         _contact(scene, shape),
         *_twist_left_out(scene, basis, q, energy),
+        *gauss_left_out(scene.alpha, scene.poisson, curved, energy),
         OmittedTerm(
             "wire's resistance to twist",
             "natural curvature beyond the curvature / (1/R)",

@@ -21,7 +21,11 @@ _WAVES = np.arange(2.0, 40.0)
 
 
 def stays_flat(scene: LoopScene) -> bool:
-    """Whether the flat loop resists every motion out of its plane."""
+    """Whether the flat loop resists every motion out of its plane.
+
+    The fabric's bending adds nothing here: the motions that decide are harmonic, and have no mean
+    curvature to first order.
+    """
     floor = -_FLATNESS * max(1.0, scene.beta)
     return bool(rising_stiffness(scene, _WAVES).min() >= floor)
 
@@ -61,10 +65,10 @@ def telling_degree(scene: LoopScene, stress: float, degree: int) -> int:
 
     Where fabric is in tension everywhere it resists every motion, and only the wire can give way:
     not with more than n waves, n (n + 1) = T/2β, which even the flat loop would resist, although
-    all of the fabric's tension T presses its wire. Where fabric is slack, motions of all degrees
-    count that the shape's own basis holds.
+    all of the fabric's tension T presses its wire. Where fabric is slack, or resists bending,
+    motions of all degrees count that the shape's own basis holds.
     """
-    if stress <= 0:
+    if stress <= 0 or scene.alpha > 0:
         return degree + 1
     resistance = 2 * scene.beta * max(1 - scene.natural_curvature, 1e-9)
     tension = line_tension(scene.strain, scene.poisson, scene.reading)

@@ -153,6 +153,17 @@ def _unknowns_and_sectors(degree: int, space: Space) -> tuple[tuple[Unknown, ...
     return displacements(degree, symmetry), 4 // len(symmetry.in_plane)
 
 
+def _disc_points(degree: int, sectors: int) -> tuple[Vectors, Vectors, Vectors]:
+    """Radius, angle and weight (P,) of the points at which the fabric's energy is integrated."""
+    # gradients have degree up to `degree`, the density four times that
+    theta = _sector_angles(4 * degree + 1, sectors)
+    nodes, weights = np.polynomial.legendre.leggauss(degree + 1)
+    radius = np.sqrt((nodes + 1) / 2)
+    r, angle = np.meshgrid(radius, theta, indexing="ij")
+    area = np.repeat(weights / 2 * np.pi / len(theta), len(theta))
+    return r.ravel(), angle.ravel(), area
+
+
 @lru_cache(maxsize=128)
 def disc_basis(degree: int, space: Space) -> DiscBasis:
     """Tabulate a space of shapes; ``degree`` (odd) bounds its polynomials.
@@ -162,22 +173,32 @@ def disc_basis(degree: int, space: Space) -> DiscBasis:
     saddle, a quarter where two mirrors or half-turns are left, half of it with one half-turn.
     """
     unknowns, sectors = _unknowns_and_sectors(degree, space)
-    # gradients have degree up to `degree`, the density four times that
-    theta = _sector_angles(4 * degree + 1, sectors)
-    nodes, weights = np.polynomial.legendre.leggauss(degree + 1)
-    radius = np.sqrt((nodes + 1) / 2)
-    r, angle = np.meshgrid(radius, theta, indexing="ij")
+    r, angle, area = _disc_points(degree, sectors)
     edge = _sector_angles(6 * (degree + 1), sectors)
     return DiscBasis(
         degree=degree,
         space=space,
         unknowns=unknowns,
-        gradient=_gradient_map(unknowns, r.ravel(), angle.ravel()),
-        area=np.repeat(weights / 2 * np.pi / len(theta), len(theta)),
+        gradient=_gradient_map(unknowns, r, angle),
+        area=area,
         edge=np.concatenate([_edge_map(unknowns, edge, 1), _edge_map(unknowns, edge, 2)], axis=1),
         angle=edge,
         arc=np.full(len(edge), 2 * np.pi / len(edge)),
     )
+
+
+@lru_cache(maxsize=64)
+def jet_map(basis: DiscBasis) -> Vectors:
+    """Linear map (P, 5, 3, n) to derivatives by x, y, xx, xy and yy at the points of a basis."""
+    sectors = _unknowns_and_sectors(basis.degree, basis.space)[1]
+    r, theta, _ = _disc_points(basis.degree, sectors)
+    out = np.zeros((len(r), 5, 3, basis.size))
+    out[:, :2] = np.swapaxes(basis.gradient, 1, 2)
+    for i, unknown in enumerate(basis.unknowns):
+        for term in unknown:
+            for k, values in enumerate(term.function.second(r, theta)):
+                out[:, 2 + k, term.component, i] += term.weight * values
+    return out
 
 
 @lru_cache(maxsize=256)

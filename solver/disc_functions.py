@@ -48,6 +48,17 @@ class DiscFunction:
         power_slope = m * r ** (m - 1) if m > 0 else np.zeros_like(r)
         return norm * power * jacobi, norm * (power_slope * jacobi + power * slope * 4 * r)
 
+    def radial_curvature(self, r: Vectors) -> Vectors:
+        """Second derivative of the radial factor at 0 < r < 1.
+
+        By Zernike's equation for degree n, (1 − r²) R″ + (1/r − 3r) R′ + (n(n+2) − m²/r²) R = 0
+        (Bhatia and Wolf, Proc. Camb. Phil. Soc. 50 (1954) 40).
+        """
+        radial, slope = self.radial(r)
+        n, m = self.degree, self.m
+        rest = (1 / r - 3 * r) * slope + (n * (n + 2) - (m / r) ** 2) * radial
+        return -rest / (1 - r * r)
+
     def angular(self, theta: Vectors, derivative: int = 0) -> Vectors:
         """Angular factor, or its first to third derivative, at angles ``theta``."""
         quarter_turns = derivative + (0 if self.trig == "cos" else 3)
@@ -64,3 +75,17 @@ class DiscFunction:
         along_theta = radial / r * self.angular(theta, 1)
         c, s = np.cos(theta), np.sin(theta)
         return c * along_r - s * along_theta, s * along_r + c * along_theta
+
+    def second(self, r: Vectors, theta: Vectors) -> tuple[Vectors, Vectors, Vectors]:
+        """Second derivatives by xx, xy and yy at polar coordinates, 0 < r < 1."""
+        radial, slope = self.radial(r)
+        along = self.radial_curvature(r) * self.angular(theta)
+        mixed = (slope / r - radial / r**2) * self.angular(theta, 1)
+        across = slope / r * self.angular(theta) + radial / r**2 * self.angular(theta, 2)
+        c, s = np.cos(theta), np.sin(theta)
+        both = 2 * c * s * mixed
+        return (
+            c * c * along - both + s * s * across,
+            c * s * (along - across) + (c * c - s * s) * mixed,
+            s * s * along + both + c * c * across,
+        )

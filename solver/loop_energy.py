@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.disc_basis import DiscBasis
+from solver.disc_basis import DiscBasis, jet_map
+from solver.fabric_bending import FabricBending
 from solver.membrane import Membrane
 from solver.quartic import LARGEST, FabricPolynomial, shape_table
 from solver.reading import density_coefficients
@@ -33,6 +34,8 @@ class LoopEnergy:
         The fabric's energy tabulated, where the basis is small and all directions are alike.
     twist : WireTwist or None
         Where the scene asks for it and the shapes of the basis can writhe.
+    bending : FabricBending or None
+        Where the scene asks for it.
     """
 
     membrane: Membrane
@@ -41,6 +44,7 @@ class LoopEnergy:
     speed: Vectors | float = 1.0
     polynomial: FabricPolynomial | None = None
     twist: WireTwist | None = None
+    bending: FabricBending | None = None
 
     def terms(self, q: Vectors) -> dict[str, float]:
         """Energy by term, units of E_f t R², at unknowns ``q`` (n,)."""
@@ -54,6 +58,8 @@ class LoopEnergy:
         }
         if self.twist is not None:
             terms["wire twist"] = self.twist.energy(basis.along_edge(q), basis.arc)
+        if self.bending is not None:
+            terms["fabric bending"] = self.bending.energy(jet_map(basis) @ q, basis.area)
         return terms
 
     def value(self, q: Vectors) -> float:
@@ -78,6 +84,10 @@ class LoopEnergy:
         if self.twist is not None:
             own = self.twist.derivatives(edge, basis.arc, basis.edge)
             value, slope, hessian = value + own[0], slope + own[1], hessian + own[2]
+        if self.bending is not None:
+            jets = jet_map(basis)
+            own = self.bending.derivatives(jets @ q, basis.area, jets)
+            value, slope, hessian = value + own[0], slope + own[1], hessian + own[2]
         return float(value), slope, hessian
 
     def derivatives_around(
@@ -85,8 +95,8 @@ class LoopEnergy:
     ) -> tuple[float, Vectors, Vectors]:
         """Derivatives by the basis' unknowns around any shape, given at the basis' own points.
 
-        Those of fabric, bending and stretch: the writhe of any shape is not that of the part of its
-        edge that a symmetry repeats.
+        Those of the fabric's stretch and of the wire's bending and stretch: the writhe of any shape
+        is not that of the part of its edge that a symmetry repeats.
 
         Parameters
         ----------
@@ -120,6 +130,11 @@ def scene_twist(scene: LoopScene, angle: Vectors) -> WireTwist | None:
     return flat_wire_twist(scene.beta, scene.twist_ratio, scene.semi_axes, angle)
 
 
+def scene_bending(scene: LoopScene) -> FabricBending | None:
+    """Bending of a scene's fabric; None where it is left out."""
+    return FabricBending(scene.alpha) if scene.alpha > 0 else None
+
+
 def edge_speed(scene: LoopScene, angle: Vectors) -> Vectors | float:
     """Length of unstretched wire per angle of the disc's edge."""
     along, across = scene.semi_axes
@@ -134,4 +149,5 @@ def loop_energy(scene: LoopScene, basis: DiscBasis) -> LoopEnergy:
         polynomial = FabricPolynomial(shape_table(basis), membrane.strain, membrane.a, membrane.b)
     speed = edge_speed(scene, basis.angle)
     twist = None if basis.mirrored else scene_twist(scene, basis.angle)
-    return LoopEnergy(membrane, scene_rod(scene), basis, speed, polynomial, twist)
+    bending = scene_bending(scene)
+    return LoopEnergy(membrane, scene_rod(scene), basis, speed, polynomial, twist, bending)

@@ -10,12 +10,16 @@ _THICKEST = 0.5
 """Diameter over the loop's smaller half-width; a thicker rod is no wire that could be bent so."""
 
 
-def wire_diameter(scene: LoopScene) -> float:
-    """Diameter of the loop's wire in units of R, when it is round and of one material.
+def round_diameter(beta: float, axial_stiffness: float, half_width: float) -> float:
+    """Diameter of a round wire of one material, in the unit R of β and of the axial stiffness k.
 
-    Then β = E_w I/(2 E_f t R³) and k = E_w A/(E_f t R) with I/A = d²/16, so d/R = √(32 β/k). An
-    axial stiffness that is not a solid wire's may ask for more than a wire's thickness, which is
-    cut off at half the loop's smaller half-width.
+    β = E_w I/(2 E_f t R³) and k = E_w A/(E_f t R) with I/A = d²/16, so d/R = √(32 β/k). An axial
+    stiffness that is not a solid wire's may ask for more than a wire's thickness, which is cut off
+    at half the smaller half-width of its loop.
     """
-    thickest = _THICKEST * min(scene.semi_axes)
-    return min(math.sqrt(32 * scene.beta / scene.axial_stiffness), thickest)
+    return min(math.sqrt(32 * beta / axial_stiffness), _THICKEST * half_width)
+
+
+def wire_diameter(scene: LoopScene) -> float:
+    """Diameter of the loop's wire in units of R, when it is round."""
+    return round_diameter(scene.beta, scene.axial_stiffness, min(scene.semi_axes))

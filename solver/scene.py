@@ -15,6 +15,8 @@ LARGEST_STRAIN = 2.0
 LARGEST_AXIS_RATIO = 10.0
 LARGEST_NATURAL_CURVATURE = 10.0
 LARGEST_TWIST_RATIO = 10.0
+LARGEST_ALPHA = 1.0
+"""Of fabric more than twice as thick as the loop's radius; what is a sheet ends far below."""
 
 ROUND_WIRE_TWIST_RATIO = 0.75
 """GJ/EI = 1/(1 + ν) of a round wire (J = 2I, G = E/2(1 + ν)), for ν = 1/3 of nickel-titanium.
@@ -29,10 +31,10 @@ which would make it 0.77.
 class LoopScene:
     """A loop of perimeter 2π on fabric stretched by ``strain`` in all directions.
 
-    The energy is U = ∫ w(E) dA0 + β ∮ (κ − κ0)² dl + (k/2) ∮ (λ − 1)² ds + 2π β ρ Wr², with dA0
-    the unstretched area, κ the wire's curvature, λ its stretch, k its axial stiffness and Wr the
-    loop's writhe. Lengths are in units of the radius R of the circle of the same perimeter,
-    energies in units of E_f t R².
+    The energy is U = ∫ w(E) dA0 + α ∫ H² dA + β ∮ (κ − κ0)² dl + (k/2) ∮ (λ − 1)² ds + 2π β ρ Wr²,
+    with dA0 the unstretched and dA the deformed area, H the fabric's mean curvature, κ the wire's
+    curvature, λ its stretch, k its axial stiffness and Wr the loop's writhe. Lengths are in units
+    of the radius R of the circle of the same perimeter, energies in units of E_f t R².
 
     Attributes
     ----------
@@ -57,7 +59,7 @@ class LoopScene:
         ρ = GJ/EI, the wire's stiffness against twist over that against bending, of a straight
         wire laid flat without twist; 0 leaves its twist out.
     alpha : float
-        Bending stiffness of the fabric in units of E_f t R²; only 0 is modelled.
+        α, bending stiffness of the fabric in units of E_f t R²; see `solver.fabric_bending`.
 
     Raises
     ------
@@ -81,6 +83,7 @@ class LoopScene:
         _check_range("axis_ratio", self.axis_ratio, 1, LARGEST_AXIS_RATIO)
         _check_range("natural_curvature", self.natural_curvature, 0, LARGEST_NATURAL_CURVATURE)
         _check_range("twist_ratio", self.twist_ratio, 0, LARGEST_TWIST_RATIO)
+        _check_range("alpha", self.alpha, 0, LARGEST_ALPHA)
         for key, value in (
             ("beta", self.beta),
             ("axial_stiffness", self.axial_stiffness),
@@ -91,8 +94,6 @@ class LoopScene:
         check_poisson(self.poisson, self.reading)
         self._check_orthotropy()
         self._check_twist()
-        if self.alpha != 0:
-            raise SceneError(f"alpha = {self.alpha:g}: the fabric's bending is not modelled, use 0")
 
     def _check_orthotropy(self) -> None:
         """Refuse moduli so different that the density is no longer positive definite."""

@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.disc_basis import DiscBasis, Space, disc_basis, transfer
+from solver.disc_basis import DiscBasis, Space, disc_basis, jet_map, transfer
 from solver.free_motions import (
     free_motions_of,
     lifted,
@@ -23,7 +23,13 @@ from solver.free_motions import (
     translation,
     turn_of_fabric,
 )
-from solver.loop_energy import edge_speed, scene_membrane, scene_rod, scene_twist
+from solver.loop_energy import (
+    edge_speed,
+    scene_bending,
+    scene_membrane,
+    scene_rod,
+    scene_twist,
+)
 from solver.quartic import FabricPolynomial, QuarticTable, tabulate
 from solver.scene import LoopScene
 from solver.shape import Expansion, LoopShape, from_expansion
@@ -87,6 +93,8 @@ class Motions:
         Of the shapes, at the points of ``basis``.
     writhing : bool
         Whether they change the shapes' writhe to first order.
+    home : DiscBasis
+        A space that holds the shapes, tabulated at the points of ``basis``.
     """
 
     shapes: DiscBasis
@@ -94,6 +102,7 @@ class Motions:
     gradient: Vectors
     edge: Vectors
     writhing: bool
+    home: DiscBasis
 
     @property
     def few(self) -> bool:
@@ -106,6 +115,10 @@ class Motions:
         """The fabric's second variation as a polynomial of the shape."""
         return tabulate(self.basis.gradient, self.gradient, self.basis.area)
 
+    def jet(self, q: Vectors) -> Vectors:
+        """First and second derivatives (P, 5, 3) of a shape q (n,) at the points of ``basis``."""
+        return jet_map(self.home) @ (transfer(self.shapes, self.home) @ q)
+
 
 @lru_cache(maxsize=128)
 def motions(shapes: DiscBasis, space: Space, symmetry: Symmetry, highest: int) -> Motions:
@@ -114,7 +127,7 @@ def motions(shapes: DiscBasis, space: Space, symmetry: Symmetry, highest: int) -
     into = transfer(shapes, home)
     basis = disc_basis(shapes.degree, symmetry).up_to(highest)
     writhing = symmetry == _writhing_class(shapes)
-    return Motions(shapes, basis, home.gradient @ into, home.edge @ into, writhing)
+    return Motions(shapes, basis, home.gradient @ into, home.edge @ into, writhing, home)
 
 
 def hessian_along(
@@ -131,6 +144,9 @@ def hessian_along(
         fabric = membrane.derivatives(moves.gradient @ q, basis.area, basis.gradient)[2]
     speed, edge = edge_speed(scene, basis.angle), moves.edge @ q
     wire = scene_rod(scene).derivatives(edge, basis.arc, basis.edge, speed)[2]
+    bending = scene_bending(scene)
+    if bending is not None:
+        fabric = fabric + bending.derivatives(moves.jet(q), basis.area, jet_map(basis))[2]
     return fabric + wire + _twist_along(scene, moves, edge)
 
 

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     help="Stretch stiffness of the wire, E_w A_w / (E_f t R). [default: 1000]",
 )
 @click.option(
+    "--alpha", type=float, help="Bending stiffness of the fabric, t²/(6R²(1−ν²)). [default: 0]"
+)
+@click.option(
     "--refinements",
     type=int,
     default=2,

@@ -58,6 +58,20 @@ _GRID = re.compile(r"([1-9][0-9]{0,2})\s*[x×]\s*([1-9][0-9]{0,2})")
     show_default=True,
     help="Curvature to which the wire tends by itself, in units of 1/R.",
 )
+@click.option(
+    "--twist-ratio",
+    type=float,
+    default=0.0,
+    show_default=True,
+    help="GJ/EI of the wire, about 0.75 if round; 0 adds its twist only where a shape writhes.",
+)
+@click.option(
+    "--alpha",
+    type=float,
+    default=0.0,
+    show_default=True,
+    help="Bending stiffness of the fabric, t²/(6R²(1−ν²)), 0 to 1.",
+)
 @click.option("--loops", default="1x1", show_default=True, help="Rows x columns of an array.")
 @click.option(
     "--between",
@@ -90,6 +104,8 @@ def command(
     axis_ratio: float,
     modulus_ratio: float,
     natural_curvature: float,
+    twist_ratio: float,
+    alpha: float,
     loops: str,
     between: str,
     fidelity: str,
@@ -120,6 +136,8 @@ def command(
             axis_ratio,
             modulus_ratio,
             natural_curvature,
+            twist_ratio,
+            alpha,
         )
         scene = _scene(loop, loops, between)
         solve = _solver(scene, fidelity, tolerance)

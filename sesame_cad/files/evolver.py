@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sesame_cad.errors import InputError
-from sesame_cad.files.evolver_commands import COMMANDS, DECLARATIONS, HEAD
+from sesame_cad.files.evolver_commands import BENDING_FABRIC, COMMANDS, DECLARATIONS, HEAD
 from solver.mesh.loop_mesh import loop_fan
 from solver.mesh.triangulation import Mesh
 from solver.mesh.triangulation import refinements as refined_meshes
@@ -40,8 +40,9 @@ class _Sides:
 def evolver_datafile(scene: LoopScene, refinements: int, start_height: float = START_HEIGHT) -> str:
     """Write one loop of radius 1 with commands that solve it; energies in units of E_f t R².
 
-    The fabric is Evolver's ``linear_elastic`` on constant-strain triangles, the wire its
-    ``sqcurve_string_marked`` (bending) and ``hooke3_energy`` (stretch) along the boundary.
+    The fabric is Evolver's ``linear_elastic`` on constant-strain triangles, and where it resists
+    bending ``star_perp_sq_mean_curvature``; the wire is ``sqcurve_string_marked`` (bending) and
+    ``hooke3_energy`` (stretch) along the boundary.
     Evolver's membrane is that of plane stress; the published reading is the same with
     ν' = ν/(1−ν) and the modulus 2 (1+ν')/(1+ν), in units of E_f.
 
@@ -72,8 +73,9 @@ def evolver_datafile(scene: LoopScene, refinements: int, start_height: float = S
     lines = [
         HEAD.format(**numbers, reading=scene.reading, triangles=len(mesh.triangles)),
         DECLARATIONS.format(**numbers, modulus=_text(_membrane(scene)[1])),
+        *([BENDING_FABRIC.format(alpha=_text(scene.alpha))] if scene.alpha > 0 else []),
         "vertices",
-        *_vertices(mesh, start_height),
+        *_vertices(mesh, start_height, inner="fabric_bend" if scene.alpha > 0 else ""),
         "\nedges",
         *_edges(mesh, sides),
         "\nfaces",
@@ -90,6 +92,7 @@ def _check(scene: LoopScene, refinements: int, start_height: float) -> None:
             ("axis_ratio", scene.axis_ratio, 1, "circular loops"),
             ("modulus_ratio", scene.modulus_ratio, 1, "fabric that is equally stiff both ways"),
             ("natural_curvature", scene.natural_curvature, 0, "wire that is straight by nature"),
+            ("twist_ratio", scene.twist_ratio, 0, "wire without twist"),
         )
         if value != allowed
     ]
@@ -128,13 +131,13 @@ def _pins(ring: Indices) -> dict[int, str]:
     return {0: "constraint 2 3", int(ring[0]): "constraint 3", **level}
 
 
-def _vertices(mesh: Mesh, start_height: float) -> Iterator[str]:
+def _vertices(mesh: Mesh, start_height: float, inner: str) -> Iterator[str]:
     ring = mesh.wires[0].vertices
     pins, on_wire = _pins(ring), set(ring.tolist())
     for k, (x, y) in enumerate(mesh.points.tolist()):
         pin = pins.get(k, "")
         z = 0.0 if pin == "constraint 1" else start_height * (x * x - y * y)
-        words = [*map(_text, (x, y, z)), pin, "bend on_wire 1" if k in on_wire else ""]
+        words = [*map(_text, (x, y, z)), pin, "bend on_wire 1" if k in on_wire else inner]
         yield " ".join(filter(None, [str(1 + k), *words]))
 
 

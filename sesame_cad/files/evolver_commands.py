@@ -50,6 +50,15 @@ constraint 3
 formula: y = 0
 """
 
+BENDING_FABRIC = """\
+parameter fabric_stiffness = {alpha}         // alpha
+
+// Bending of the fabric: modulus times the integral of H^2 over the surface, H = (k1 + k2)/2, from
+// the stars of the inner vertices. At the fabric's edge, free to turn about its wire, H is 0. The
+// plain sq_mean_curvature has no Hessian. Type print fabric_bend.value for its energy.
+quantity fabric_bend energy modulus fabric_stiffness method star_perp_sq_mean_curvature
+"""
+
 COMMANDS = """
 read
 

@@ -12,14 +12,19 @@ from solver.checks import SLACK, TWIST
 from solver.compact import solve_loop
 from solver.errors import SceneError
 from solver.ladder.answer import Answer, Rung
+from solver.ladder.fabric_share import curved_fabric
 from solver.ladder.fidelity import Fidelity
 from solver.ladder.law import by_law, law_error
-from solver.ladder.meshed import by_array_mesh, by_loop_mesh
+from solver.ladder.meshed import TWIST_ADDED, by_mesh
+from solver.mesh.any_scene import MeshScene
 from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene, Contact
+from solver.mesh.sheet import SheetScene
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 
 _ASKED = "asked for"
+_PART_OF_TOLERANCE = 0.3
+_CHEAPEST = "a smooth basis is the cheapest that meets the tolerance for one loop"
 
 
 def prepare_tables() -> None:
@@ -28,7 +33,7 @@ def prepare_tables() -> None:
 
 
 def solve_scene(
-    scene: LoopScene | ArrayScene,
+    scene: MeshScene,
     *,
     fidelity: Fidelity = Fidelity.AUTO,
     tolerance: float = 1e-3,
@@ -50,38 +55,70 @@ def solve_scene(
     NotConvergedError
         When there is no shape to rely on.
     """
+    if isinstance(scene, SheetScene):
+        return _solve_sheet(scene, fidelity, tolerance, lenient=allow_unreliable)
     if isinstance(scene, ArrayScene):
         return _solve_array(scene, fidelity, tolerance, lenient=allow_unreliable)
+    return _solve_loop(scene, fidelity, tolerance, lenient=allow_unreliable)
+
+
+def _solve_loop(scene: LoopScene, fidelity: Fidelity, tolerance: float, *, lenient: bool) -> Answer:
     if fidelity is Fidelity.SCALING:
         return by_law(scene, _ASKED)
     if fidelity is Fidelity.MESH:
-        return by_loop_mesh(scene, _ASKED, tolerance, lenient=allow_unreliable)
+        return by_mesh(scene, _ASKED, tolerance, lenient=lenient)
     if fidelity is Fidelity.COMPACT:
-        return _by_compact(scene, _ASKED, tolerance, lenient=allow_unreliable)
+        return _by_compact(scene, _ASKED, tolerance, lenient=lenient)
+    return _by_cheapest(scene, tolerance, lenient=lenient)
+
+
+def _by_cheapest(scene: LoopScene, tolerance: float, *, lenient: bool) -> Answer:
     error = law_error(scene)
     if error <= tolerance:
         return by_law(scene, f"its error, at most {error:.2g}, is within the tolerance")
-    return _by_compact_or_mesh(scene, tolerance, lenient=allow_unreliable)
+    if scene.alpha > 0:
+        return _with_bending_if_it_matters(scene, tolerance, lenient=lenient)
+    return _by_compact_or_mesh(scene, _CHEAPEST, tolerance, lenient=lenient)
 
 
-def _by_compact_or_mesh(scene: LoopScene, tolerance: float, *, lenient: bool) -> Answer:
+def _with_bending_if_it_matters(scene: LoopScene, tolerance: float, *, lenient: bool) -> Answer:
+    """Leave the fabric's bending out where what it would change is well within the tolerance."""
+    bare = _by_compact_or_mesh(replace(scene, alpha=0.0), _CHEAPEST, tolerance, lenient=True)
+    found, curved = bare.equilibrium, curved_fabric(bare, scene)
+    if found is None or curved is None:  # no law knows such fabric
+        return bare
+    share = curved.bending_share(scene.alpha)
+    settled = found.status == "converged" and bare.height_error <= tolerance
+    if settled and share <= _PART_OF_TOLERANCE * tolerance:
+        return replace(bare, omitted=(*bare.omitted, *curved.left_out(scene)))
+    reason = f"{_CHEAPEST}; the fabric's bending was added: {share:.2g} of what buckling releases"
+    return _by_compact_or_mesh(scene, reason, tolerance, lenient=lenient)
+
+
+def _by_compact_or_mesh(
+    scene: LoopScene, reason: str, tolerance: float, *, lenient: bool
+) -> Answer:
     """Solve in the smooth basis; where the fabric goes slack, on a mesh with a tension field."""
-    reason = "a smooth basis is the cheapest that meets the tolerance for one loop"
     smooth = _by_compact(scene, reason, tolerance, lenient=True)
-    if _matters(smooth, TWIST) and scene.natural_curvature == 0:
+    if _lacks_twist(scene, smooth):
         scene = replace(scene, twist_ratio=ROUND_WIRE_TWIST_RATIO)
-        reason = "a smooth basis; the wire's twist was added, for the shape without it has writhe"
+        reason = f"{reason}; {TWIST_ADDED}"
         smooth = _by_compact(scene, reason, tolerance, lenient=True)
     found = smooth.equilibrium
     slack = _matters(smooth, SLACK)
     if found is not None and found.status == "converged" and not slack:
         return smooth
-    if scene.modulus_ratio != 1 or scene.twist_ratio > 0:  # neither is known to the tension field
+    if scene.modulus_ratio != 1:  # not known to the tension field
         return _by_compact(scene, reason, tolerance, lenient=lenient)
     why = "the fabric is slack" if slack else "the smooth basis did not settle"
-    return by_loop_mesh(
-        scene, f"{why}: a mesh with a tension field was added", tolerance, lenient=lenient
-    )
+    added = "a mesh" if scene.alpha > 0 else "a mesh with a tension field"
+    reason = f"{why}: {added} was added"
+    return by_mesh(scene, reason, tolerance, lenient=lenient, add_twist=True)
+
+
+def _lacks_twist(scene: LoopScene, answer: Answer) -> bool:
+    """Whether a shape writhes and its wire's twist, which only straight wire has, was left out."""
+    return _matters(answer, TWIST) and scene.natural_curvature == 0
 
 
 def _matters(answer: Answer, term: str) -> bool:
@@ -126,5 +163,18 @@ def _solve_array(
         return replace(one, reason=f"equal loops with cut gaps tile: one is solved; {one.reason}")
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
         raise SceneError(f"these loops do not tile; {fidelity} solves one loop, mesh solves arrays")
-    reason = _ASKED if fidelity is Fidelity.MESH else "the loops of this array act on each other"
-    return by_array_mesh(scene, reason, tolerance, lenient=lenient)
+    if fidelity is Fidelity.MESH:
+        return by_mesh(scene, _ASKED, tolerance, lenient=lenient)
+    reason = "the loops of this array act on each other"
+    return by_mesh(scene, reason, tolerance, lenient=lenient, add_twist=True)
+
+
+def _solve_sheet(
+    scene: SheetScene, fidelity: Fidelity, tolerance: float, *, lenient: bool
+) -> Answer:
+    if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
+        raise SceneError(f"{fidelity} solves one loop of its own; mesh solves any scene")
+    if fidelity is Fidelity.MESH:
+        return by_mesh(scene, _ASKED, tolerance, lenient=lenient)
+    reason = "only a mesh knows scenes of many curves"
+    return by_mesh(scene, reason, tolerance, lenient=lenient, add_twist=True)

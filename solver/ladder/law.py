@@ -40,8 +40,8 @@ def by_law(scene: LoopScene, reason: str) -> Answer:
     """
     if not _law_applies(scene):
         raise SceneError(
-            "the scaling law knows circular loops of isotropic fabric and straight wire; "
-            "use the compact rung"
+            "the scaling law knows circular loops of isotropic fabric without bending stiffness "
+            "(alpha = 0) and straight wire; use the compact rung"
         )
     height = scaling_height(scene.strain, scene.beta, scene.poisson, scene.reading)
     error = law_error(scene)

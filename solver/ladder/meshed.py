@@ -4,45 +4,45 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import partial
-from typing import Protocol
 
 from solver.checks import CONTACT
 from solver.errors import NotConvergedError
 from solver.ladder.answer import Answer, Rung
+from solver.mesh.any_scene import MeshScene, fabric_of, size_of, twisted
 from solver.mesh.barrier import REMEDY, contact_available
 from solver.mesh.contact_solve import solve_in_contact
 from solver.mesh.equilibrium import MeshEquilibrium
-from solver.mesh.omissions import mesh_omissions
-from solver.mesh.scene import ArrayScene
-from solver.mesh.solve import solve_array, solve_loop_mesh
+from solver.mesh.omissions import lacks_twist, mesh_omissions, wrinkles_escape
+from solver.mesh.solve_any import solve_on_mesh
 from solver.mesh.thickness import REACH
-from solver.scene import LoopScene
+from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 
 FINEST_LOOP = 5
 FINEST_ARRAY = 3
-FINEST_SLACK = 3
+FINEST_SLACK_LOOP, FINEST_SLACK_ARRAY = 4, 3
 """Finer meshes of wrinkled fabric take hundreds of steps; what they would change is told."""
+MOST_TRIANGLES = 25_000
+"""Of the finest mesh, if coarser ones do not have more already."""
 MOST_IN_CONTACT = 1700
 """Triangles of the finest mesh that is solved with contact, of which a step takes many times
 longer: at the least two meshes are, to tell the error."""
 LARGEST_IN_CONTACT = 6000
 """Triangles of a mesh on which contact is not even begun."""
 
+TWIST_ADDED = "the wire's twist was added, for the shape without it has writhe"
+
+_COARSEST_LOOP, _COARSEST_ARRAY = 2, 1
+"""Refinements of the first mesh that is solved for itself."""
+_FLAT = 1e-6
+"""Height over the loops' mean radius up to which a shape is flat."""
 _SHARES_OF_ERROR = 3.0
 """A second-order error is a third of its change from the mesh with edges twice as long."""
-
-
-class _Solve(Protocol):
-    """Solve on a mesh so fine, with or without the tension field."""
-
-    def __call__(self, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium: ...
 
 
 class _InContact:
     """Solves again, with contact, what meets itself; from then on every mesh."""
 
-    def __init__(self, scene: LoopScene | ArrayScene) -> None:
+    def __init__(self, scene: MeshScene) -> None:
         self._scene = scene
         self._last: MeshEquilibrium | None = None
 
@@ -64,66 +64,69 @@ class _InContact:
         return self._last
 
 
-def by_loop_mesh(scene: LoopScene, reason: str, tolerance: float, *, lenient: bool) -> Answer:
-    """Refine until a third of the last change in height is the error allowed."""
-    solve = partial(_loop, scene)
-    found = _refined(solve, range(2, FINEST_LOOP + 1), scene, tolerance, lenient=lenient)
+def by_mesh(
+    scene: MeshScene, reason: str, tolerance: float, *, lenient: bool, add_twist: bool = False
+) -> Answer:
+    """Refine until a third of the last change in height is the error allowed.
+
+    Parameters
+    ----------
+    add_twist : bool
+        Whether to add the twist of straight round wires where the shape without it writhes.
+    """
+    found = _refined(scene, tolerance, lenient=lenient, add_twist=add_twist)
+    if found.scene != scene:
+        reason = f"{reason}; {TWIST_ADDED}"
     return _mesh_answer(found, reason, tolerance, lenient=lenient)
-
-
-def by_array_mesh(scene: ArrayScene, reason: str, tolerance: float, *, lenient: bool) -> Answer:
-    """Solve all loops together, on finer and finer meshes."""
-    solve = partial(_array, scene)
-    found = _refined(solve, range(1, FINEST_ARRAY + 1), scene, tolerance, lenient=lenient)
-    return _mesh_answer(found, reason, tolerance, lenient=lenient)
-
-
-def _loop(scene: LoopScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
-    return solve_loop_mesh(
-        scene, refinement=refinement, tension_field=field, allow_unreliable=lenient
-    )
-
-
-def _array(scene: ArrayScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
-    return solve_array(scene, refinement=refinement, tension_field=field, allow_unreliable=lenient)
 
 
 def _refined(
-    solve: _Solve,
-    refinements: range,
-    scene: LoopScene | ArrayScene,
-    tolerance: float,
-    *,
-    lenient: bool,
+    scene: MeshScene, tolerance: float, *, lenient: bool, add_twist: bool
 ) -> MeshEquilibrium:
     """Solve on finer and finer meshes; from where plain fabric goes slack, with a tension field."""
-    loop = scene.loop if isinstance(scene, ArrayScene) else scene
-    knows_field = loop.modulus_ratio == 1
     contact = _InContact(scene)
+    refinement = _COARSEST_LOOP if isinstance(scene, LoopScene) else _COARSEST_ARRAY
     field = False
-    found = None
-    for refinement in refinements:
-        if not field:
-            # a plain solve that fails may be one that wrinkles: the tension field has its turn
-            found = solve(refinement, field=False, lenient=lenient or knows_field)
-            slack = found.smallest_stress < 0 < loop.strain
-            field = knows_field and (slack or found.status != "converged")
-        if field:
-            # and so may one be that meets itself: contact has its turn
-            found = solve(refinement, field=True, lenient=True)
-        if found is not None:
-            found = contact.solved(found, refinement, lenient=lenient)
-            _check_converged(found, lenient=lenient)
-        first_of_array = refinement == 1
-        if found is not None and not first_of_array and _mesh_error(found) <= tolerance:
-            break
-        if field and refinement >= FINEST_SLACK:
-            break
-        if found is not None and _finest_in_contact(found):
-            break
-    if found is None:
-        raise NotConvergedError("no mesh to solve on")
-    return found
+    while True:
+        found = _solved(scene, refinement, field=field, lenient=lenient)
+        field = found.tension_field
+        if add_twist and lacks_twist(found):
+            scene, field = twisted(scene, ROUND_WIRE_TWIST_RATIO), False
+            contact = _InContact(scene)
+            continue
+        found = contact.solved(found, refinement, lenient=lenient)
+        _check_converged(found, lenient=lenient)
+        # two coarse meshes may agree by chance
+        told = refinement > _COARSEST_ARRAY and _mesh_error(found) <= tolerance
+        if told or _finest(scene, found, refinement):
+            return found
+        refinement += 1
+
+
+def _solved(scene: MeshScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
+    loop = fabric_of(scene)
+    knows_field = loop.modulus_ratio == 1
+    if not field:
+        # a plain solve that fails may be one that wrinkles: the tension field has its turn
+        found = solve_on_mesh(
+            scene, refinement, tension_field=False, allow_unreliable=lenient or knows_field
+        )
+        slack = loop.strain > 0 and wrinkles_escape(found)
+        if not (knows_field and (slack or found.status != "converged")):
+            return found
+    # and so may one be that meets itself: contact has its turn
+    return solve_on_mesh(scene, refinement, tension_field=True, allow_unreliable=True)
+
+
+def _finest(scene: MeshScene, found: MeshEquilibrium, refinement: int) -> bool:
+    """Whether no finer mesh is to be solved."""
+    one = isinstance(scene, LoopScene)
+    finest = FINEST_LOOP if one else FINEST_ARRAY
+    if found.tension_field:
+        finest = min(finest, FINEST_SLACK_LOOP if one else FINEST_SLACK_ARRAY)
+    large = 4 * len(found.mesh.triangles) > MOST_TRIANGLES
+    beyond_help = found.contact is None and found.meets_itself
+    return refinement >= finest or large or beyond_help or _finest_in_contact(found)
 
 
 def _check_converged(found: MeshEquilibrium, *, lenient: bool) -> None:
@@ -145,13 +148,28 @@ def _mesh_error(found: MeshEquilibrium) -> float:
     change = abs(found.height - found.coarser_height) / _SHARES_OF_ERROR
     if found.contact is not None:  # parts keep no more apart than this beyond their thickness
         change = max(change, REACH * found.wire_diameter)
-    return change / found.height if found.height > 1e-6 else change
+    return change / found.height if _buckled(found) else change / size_of(found.scene)
+
+
+def _buckled(found: MeshEquilibrium) -> bool:
+    return found.height > _FLAT * size_of(found.scene)
 
 
 def _contact_remedy() -> str:
     if not contact_available():
         return f"to add contact: {REMEDY}"
     return f"contact is solved on up to {LARGEST_IN_CONTACT} triangles: solve fewer loops"
+
+
+def _error_remedy(found: MeshEquilibrium, error: float) -> str:
+    triangles = len(found.mesh.triangles)
+    remedy = "allow a larger tolerance"
+    if 4 * triangles > MOST_TRIANGLES and not isinstance(found.scene, LoopScene):
+        remedy += " or solve fewer loops"
+    return (
+        f"the finest mesh, of {triangles} triangles, still errs by {error:.1e} in the height; "
+        f"{remedy}"
+    )
 
 
 def _mesh_answer(found: MeshEquilibrium, reason: str, tolerance: float, *, lenient: bool) -> Answer:
@@ -163,9 +181,7 @@ def _mesh_answer(found: MeshEquilibrium, reason: str, tolerance: float, *, lenie
     if found.contact is not None and found.distances.crossings:
         faults.append("the shape still passes through itself; raise beta or lower strain")
     if error > tolerance:
-        faults.append(
-            f"the finest mesh still errs by {error:.1e} in the height; allow a larger tolerance"
-        )
+        faults.append(_error_remedy(found, error))
     if faults and not lenient:
         raise NotConvergedError("; ".join(faults))
     if found.contact is not None:
@@ -173,7 +189,7 @@ def _mesh_answer(found: MeshEquilibrium, reason: str, tolerance: float, *, lenie
     return Answer(
         rung=Rung.MESH,
         reason=reason,
-        buckled=found.height > 1e-6,
+        buckled=_buckled(found),
         height_over_perimeter=found.height_over_perimeter,
         height_error=error,
         terms=tuple(found.energy_terms),

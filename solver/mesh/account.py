@@ -15,7 +15,9 @@ from solver.mesh.problem import MeshProblem
 from solver.mesh.rigid import lowest_eigenvalue
 from solver.mesh.scene import ArrayScene
 from solver.mesh.search import SparseMinimum
+from solver.mesh.sheet import SheetScene
 from solver.mesh.triangulation import Mesh
+from solver.mesh.wire_twist import twist_energies, twist_strays
 from solver.scene import LoopScene
 
 
@@ -31,17 +33,24 @@ def _fault(minimum: SparseMinimum) -> str:
 
 
 def account(
-    scene: LoopScene | ArrayScene, problem: MeshProblem, solved: list[Solved], *, lenient: bool
+    scene: LoopScene | ArrayScene | SheetScene,
+    problem: MeshProblem,
+    solved: list[Solved],
+    *,
+    lenient: bool,
 ) -> MeshEquilibrium:
     """Look at the last of a sequence of minima, the first of which may be a rough one."""
     last = solved[-1]
     mesh, positions = problem.meshes[-1], last.minimum.positions
     status = _fault(last.minimum)
-    if not (last.minimum.converged or lenient):
+    if twist_strays(twist_energies(mesh, problem.wires), positions):
+        status = "the wire's twist is wrong: a loop has turned inside out; raise beta, lower strain"
+    if not (status == "converged" or lenient):
         raise NotConvergedError(status)
     energy = last.energy
     fabric = problem.fabric_on(len(problem.meshes) - 1)
     corners = positions[fabric.vertices]
+    bare = len(corners) == 0
     return MeshEquilibrium(
         scene=scene,
         mesh=mesh,
@@ -55,8 +64,8 @@ def account(
         height=total_height(positions, mesh.wires),
         loop_heights=loop_heights(positions, mesh.wires),
         coarser_height=_coarser_height(problem, solved),
-        smallest_stress=float(fabric.smallest_stress(corners).min()),
-        compressed_fraction=float(np.mean(fabric.compressed(corners))),
+        smallest_stress=0.0 if bare else float(fabric.smallest_stress(corners).min()),
+        compressed_fraction=0.0 if bare else float(np.mean(fabric.compressed(corners))),
         tension_field=problem.tension_field,
     )
 

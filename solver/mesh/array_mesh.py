@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
-import numpy as np
-from numpy.typing import NDArray
-
-from solver.mesh.loop_mesh import SEGMENTS, loop_fan
-from solver.mesh.triangulation import GAP, Mesh, RoundRegion, Wire, unrefined
-
-Vectors = NDArray[np.float64]
-Indices = NDArray[np.int64]
-
-
-class Between(StrEnum):
-    """What becomes of the cusped gaps that four loops enclose."""
-
-    CUT = "cut"
-    KEPT = "kept"
+from solver.ellipse import semi_axes
+from solver.mesh.curve import Ellipse
+from solver.mesh.drawing import Drawing, Knot
+from solver.mesh.face_mesh import MOST_SPOKES
+from solver.mesh.loop_mesh import SEGMENTS, check_segments
+from solver.mesh.plane_mesh import Between, FabricRegions, plane_mesh
+from solver.mesh.triangulation import Mesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,48 +30,26 @@ class Grid:
         return row * self.columns + column
 
 
-def _sides(segments: int) -> tuple[int, int, int, int]:
-    """Places along a fan's edge of its east, north, west and south."""
-    quarter = segments // 4
-    return 0, quarter, 2 * quarter, 3 * quarter
+def grid_curves(grid: Grid, axis_ratio: float) -> tuple[Ellipse, ...]:
+    """Give the loops: equal ellipses of perimeter 2π at the pitch at which they touch."""
+    a, b = semi_axes(axis_ratio)
+    return tuple(Ellipse((2 * a * column, 2 * b * row), (a, b)) for row, column in grid.cells)
 
 
-def _merged_vertices(grid: Grid, segments: int) -> tuple[Indices, int]:
-    """Vertex (loops, 1 + segments) of each vertex of each loop's fan, and how many there are."""
-    east, north, west, south = _sides(segments)
-    out = np.empty((len(grid.cells), 1 + segments), dtype=np.int64)
-    count = 0
-    for row, column in grid.cells:
-        shared: dict[int, int] = {}
-        if column > 0:
-            shared[1 + west] = int(out[grid.number(row, column - 1), 1 + east])
-        if row > 0:
-            shared[1 + south] = int(out[grid.number(row - 1, column), 1 + north])
-        own = out[grid.number(row, column)]
-        for k in range(1 + segments):
-            own[k] = shared.get(k, count)
-            count += k not in shared
-    return out, count
-
-
-def _gap_edges(grid: Grid, vertices: Indices) -> Indices:
-    """Vertices (gaps, segments) round each gap, counterclockwise, from its southern cusp."""
-    segments = vertices.shape[1] - 1
-    _, north, west, south = _sides(segments)
-    quarter = np.arange(segments // 4)
-    # the gap runs along each loop's edge backwards, from the first named side on
-    along = [(0, 1, west), (1, 1, south), (1, 0, segments), (0, 0, north)]
-    gaps = [
-        np.concatenate(
-            [
-                vertices[grid.number(r + i, c + j), 1 + (side - quarter) % segments]
-                for i, j, side in along
-            ]
-        )
-        for r in range(grid.rows - 1)
-        for c in range(grid.columns - 1)
+def grid_knots(grid: Grid, axis_ratio: float) -> tuple[Knot, ...]:
+    """Give the points in which loops touch their neighbours along x, then along y."""
+    a, b = semi_axes(axis_ratio)
+    along = [
+        Knot((grid.number(r, c), grid.number(r, c + 1)), (2 * a * c + a, 2 * b * r))
+        for r, c in grid.cells
+        if c + 1 < grid.columns
     ]
-    return np.array(gaps, dtype=np.int64).reshape(-1, segments)
+    across = [
+        Knot((grid.number(r, c), grid.number(r + 1, c)), (2 * a * c, 2 * b * r + b))
+        for r, c in grid.cells
+        if r + 1 < grid.rows
+    ]
+    return (*along, *across)
 
 
 def array_fan(
@@ -88,28 +57,10 @@ def array_fan(
 ) -> Mesh:
     """Coarsest mesh of a grid of equal loops at the pitch at which they touch.
 
-    Loops that touch share a vertex. Gaps that are kept are fans about their middle, which conform
-    with the loops' edges.
+    Loops are fans about their middles; those that touch share a vertex. The triangles of gaps that
+    are kept conform with the loops' edges.
     """
-    fan = loop_fan(axis_ratio, segments)
-    pitch = 2 * np.array(fan.rounds[0].semi_axes)
-    vertices, count = _merged_vertices(grid, segments)
-    centres = np.array([(c, r) for r, c in grid.cells]) * pitch
-    points = np.empty((count, 2))
-    points[vertices] = fan.points + centres[:, None, :]
-    triangles = vertices[:, fan.triangles].reshape(-1, 3)
-    region = np.repeat(np.arange(len(centres)), segments)
-    if between is Between.KEPT:
-        edges = _gap_edges(grid, vertices)
-        middles = count + np.arange(len(edges))
-        points = np.concatenate([points, points[edges].mean(axis=1)])
-        gap = np.stack(
-            [np.repeat(middles, segments), edges.ravel(), np.roll(edges, -1, axis=1).ravel()],
-            axis=1,
-        )
-        triangles = np.concatenate([triangles, gap])
-        region = np.concatenate([region, np.full(len(gap), GAP)])
-    x, y = fan.rounds[0].semi_axes
-    rounds = tuple(RoundRegion((float(cx), float(cy)), (x, y)) for cx, cy in centres)
-    wires = tuple(Wire(loop[1:]) for loop in vertices)
-    return unrefined(points, triangles, region, rounds, wires)
+    check_segments(segments)
+    drawing = Drawing(grid_curves(grid, axis_ratio), grid_knots(grid, axis_ratio))
+    regions = FabricRegions((True,) * len(grid.cells), between)
+    return plane_mesh(drawing, regions, segments, spokes=max(MOST_SPOKES, segments))

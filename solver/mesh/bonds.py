@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,42 +19,43 @@ Indices = NDArray[np.int64]
 class BondEnergy:
     """Penalty K (1 − cos ψ) on the angle ψ between the tangents of two wires at their contact.
 
-    A tangent runs from the vertex before the contact to the one after it.
-
     Attributes
     ----------
-    vertices : array (m, 4)
-        Ends of the one wire's tangent, then of the other's, in the order in which they are parallel
-        when flat.
+    vertices : array (m, a)
     stiffness : array (m,)
         K, in units of E_f t R².
+    tangents : array (m, 2, a) or (1, 2, a)
+        Both tangents as sums of the vertices' positions, parallel when flat; by default between
+        the first two vertices, and between the last two.
     """
 
     vertices: Indices
     stiffness: Vectors
+    tangents: Vectors = field(default_factory=lambda: _BETWEEN_ENDS)
 
     def energies(self, corners: Vectors) -> Vectors:
         """Energy (m,) of each bond."""
-        return self.stiffness * (1 - _tangents(corners).invariants()[0])
+        return self.stiffness * (1 - self._turn(corners).invariants()[0])
 
     def derivatives(
         self, corners: Vectors, curvature: Curvature
     ) -> tuple[Vectors, Vectors, Vectors]:
-        """Energies (m,), gradients (m, 12) and Hessians (m, 12, 12)."""
-        turn = _tangents(corners)
+        """Energies (m,), gradients (m, 3a) and Hessians (m, 3a, 3a)."""
+        turn = self._turn(corners)
         of = _misalignment(turn.invariants()[0], self.stiffness)
         gradient, hessian = turn.derivatives(of)
         if curvature is Curvature.CONVEX:
             hessian = convex_part(hessian)
-        return of.f, gradient @ _FROM_ENDS, _FROM_ENDS.T @ hessian @ _FROM_ENDS
+        from_corners = np.kron(self.tangents, np.eye(3))
+        slope = (gradient[:, None, :] @ from_corners)[:, 0]
+        return of.f, slope, np.swapaxes(from_corners, 1, 2) @ hessian @ from_corners
+
+    def _turn(self, corners: Vectors) -> Turn:
+        tangents = self.tangents @ corners
+        return Turn(tangents[:, 0], tangents[:, 1])
 
 
-def _tangents(corners: Vectors) -> Turn:
-    return Turn(corners[:, 1] - corners[:, 0], corners[:, 3] - corners[:, 2])
-
-
-_FROM_ENDS = np.kron(np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0]]), np.eye(3))
-"""The two tangents (6) from their ends (12)."""
+_BETWEEN_ENDS = np.array([[[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0]]])
 
 
 def _misalignment(c: Vectors, stiffness: Vectors) -> TurnFunction:
@@ -87,20 +88,37 @@ def contacts(wires: tuple[Wire, ...]) -> tuple[Crossing, ...]:
     )
 
 
-def _tangent_ends(wire: Wire, place: int) -> list[int]:
+def _neighbours(wire: Wire, place: int) -> list[int]:
     count = len(wire.vertices)
     return [int(wire.vertices[(place + step) % count]) for step in (-1, 1)]
 
 
-def bond_energy(mesh: Mesh, stiffness: float) -> BondEnergy:
-    """Bond of every contact of a mesh's wires."""
-    found = contacts(mesh.wires)
-    rows = np.zeros((len(found), 4), dtype=np.int64)
-    for row, contact in zip(rows, found, strict=True):
-        one, other = (
-            _tangent_ends(mesh.wires[w], p)
-            for w, p in zip(contact.wires, contact.places, strict=True)
-        )
-        along = [mesh.points[ends[1]] - mesh.points[ends[0]] for ends in (one, other)]
-        row[:] = one + (other if along[0] @ along[1] > 0 else other[::-1])
-    return BondEnergy(rows, np.full(len(found), stiffness))
+def _tangent_weights(points: Vectors, before: int, at: int, after: int) -> Vectors:
+    """Weights (3,) of the vertices before, after and at a contact in the tangent there.
+
+    It is that of the parabola through the three, so that edges of different length do not turn it:
+    the differences on both sides, each weighted by the other's length. On a circle it is exact.
+    """
+    back, ahead = (float(np.linalg.norm(points[k] - points[at])) for k in (before, after))
+    return np.array([-ahead / back, back / ahead, ahead / back - back / ahead])
+
+
+def bond_energy(mesh: Mesh, stiffness: float, loose: frozenset[int] = frozenset()) -> BondEnergy:
+    """Bond of every contact of a mesh's wires, but those at ``loose`` vertices.
+
+    Two elements stand in a row where three wires share a contact.
+    """
+    found = [contact for contact in contacts(mesh.wires) if contact.vertex not in loose]
+    rows = np.zeros((len(found), 5), dtype=np.int64)
+    tangents = np.zeros((len(found), 2, 5))
+    for row, own, contact in zip(rows, tangents, found, strict=True):
+        for k, (wire, place) in enumerate(zip(contact.wires, contact.places, strict=True)):
+            ends = _neighbours(mesh.wires[wire], place)
+            row[2 * k : 2 * k + 2] = ends
+            own[k, [2 * k, 2 * k + 1, 4]] = _tangent_weights(
+                mesh.points, ends[0], contact.vertex, ends[1]
+            )
+        row[4] = contact.vertex
+        one, other = own @ mesh.points[row]
+        own[1] *= np.sign(one @ other)
+    return BondEnergy(rows, np.full(len(found), stiffness), tangents)

@@ -75,6 +75,10 @@ class ContactEnergy:
             self._widened.entries(entries, hessians),
         )
 
+    def excess(self, positions: Vectors, move: Vectors, reached: Vectors) -> Vectors:
+        """Pull (3n,) of the excessive stretch that a bent move takes back; barriers have none."""
+        return self.free.excess(positions, move, reached)
+
     def forces(self, positions: Vectors) -> Vectors:
         """Contact forces (n, 3) on the vertices, in units of E_f t R."""
         found = zip(self.barriers, self._found(positions), strict=True)

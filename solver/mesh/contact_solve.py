@@ -8,7 +8,6 @@ prestrain from there, with barriers and with steps that pass through nothing.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -16,21 +15,23 @@ from numpy.typing import NDArray
 
 from solver.errors import NotConvergedError
 from solver.mesh.account import account
+from solver.mesh.any_scene import MeshScene, fabric_of, thickest_wire, with_strain
 from solver.mesh.contact_energy import CONTACT_TERM, ContactEnergy, ContactFactoriser
 from solver.mesh.descent import Solved, gradient_limit, mass_of
+from solver.mesh.drawing import SEGMENTS
 from solver.mesh.equilibrium import ContactAccount, MeshEquilibrium
 from solver.mesh.newton_sparse import minimise_sparse
-from solver.mesh.problem import MeshProblem, array_problem, loop_problem
+from solver.mesh.problem import MeshProblem, array_problem, loop_problem, sheet_problem
 from solver.mesh.scene import ArrayScene
 from solver.mesh.search import SearchLimits
 from solver.mesh.self_contact import SelfContact
-from solver.mesh.solve import solve_array, solve_loop_mesh
+from solver.mesh.sheet import SheetScene
+from solver.mesh.sheet_unit import in_unit_of
+from solver.mesh.solve_any import solve_on_mesh
+from solver.mesh.solve_sheet import free_motions
 from solver.mesh.thickness import thickness_barriers
-from solver.round_wire import wire_diameter
-from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
-Scene = LoopScene | ArrayScene
 
 _FREE_PARTS = (0.5, 0.25, 0.1, 0.03, 0.01, 0.0)
 """Of the prestrain: where to begin, the largest that will do."""
@@ -39,24 +40,9 @@ _RAISES = 4
 _ON_THE_WAY = SearchLimits(decrease=1e-4, steps=100)
 
 
-def _loop_of(scene: Scene) -> LoopScene:
-    return scene.loop if isinstance(scene, ArrayScene) else scene
-
-
-def _with_strain(scene: Scene, strain: float) -> Scene:
-    if isinstance(scene, ArrayScene):
-        return replace(scene, loop=replace(scene.loop, strain=strain))
-    return replace(scene, strain=strain)
-
-
-def _solved_freely(scene: Scene, refinement: int, *, field: bool) -> MeshEquilibrium:
-    solve: Callable[..., MeshEquilibrium] = (
-        solve_array if isinstance(scene, ArrayScene) else solve_loop_mesh
-    )
-    return solve(scene, refinement=refinement, tension_field=field, allow_unreliable=True)
-
-
-def _problem(scene: Scene, refinement: int, *, field: bool) -> MeshProblem:
+def _problem(scene: MeshScene, refinement: int, *, field: bool) -> MeshProblem:
+    if isinstance(scene, SheetScene):
+        return sheet_problem(scene, refinement, SEGMENTS, tension_field=field)
     if isinstance(scene, ArrayScene):
         return array_problem(scene, refinement, tension_field=field)
     return loop_problem(scene, refinement, tension_field=field)
@@ -69,12 +55,17 @@ def _energy(problem: MeshProblem, diameter: float, strain: float) -> ContactEner
 
 
 def _free_shape(
-    scene: Scene, energy: ContactEnergy, refinement: int, *, field: bool
+    scene: MeshScene, energy: ContactEnergy, refinement: int, *, field: bool
 ) -> tuple[float, Vectors]:
     """Give a prestrain at which the shape keeps its thickness, and the positions (n, 3) there."""
-    strain = _loop_of(scene).strain
+    strain = fabric_of(scene).strain
     for part in _FREE_PARTS:
-        found = _solved_freely(_with_strain(scene, part * strain), refinement, field=field)
+        found = solve_on_mesh(
+            with_strain(scene, part * strain),
+            refinement,
+            tension_field=field,
+            allow_unreliable=True,
+        )
         clear = math.isfinite(energy.value(found.positions))
         if clear and found.distances.crossings == 0:
             return part * strain, found.positions
@@ -109,7 +100,7 @@ def _contact_account(
 
 
 def solve_in_contact(
-    scene: Scene,
+    scene: MeshScene,
     *,
     refinement: int = 2,
     tension_field: bool = False,
@@ -123,7 +114,7 @@ def solve_in_contact(
     Parameters
     ----------
     before : SelfContact, optional
-        How near the shape comes to itself without contact, for the account.
+        How near the shape comes to itself without contact, in the scene's unit, for the account.
 
     Raises
     ------
@@ -132,24 +123,29 @@ def solve_in_contact(
     SceneError
         When the library for contact is not installed, or as `solve_loop_mesh` and `solve_array`.
     """
-    loop = _loop_of(scene)
-    diameter = wire_diameter(loop)
+    asked = scene
+    if isinstance(scene, SheetScene):
+        scene = scene.in_units_of(scene.size)
+    whole, diameter = fabric_of(scene).strain, thickest_wire(scene)
     problem = _problem(scene, refinement, field=tension_field)
     mass = mass_of(problem.meshes[-1])
-    energy = _energy(problem, diameter, loop.strain)
+    energy = _energy(problem, diameter, whole)
     strain, positions = _free_shape(scene, energy, refinement, field=tension_field)
     solved: list[Solved] = []
-    for between in np.linspace(strain, loop.strain, _RAISES + 1)[1:-1]:
-        partial = _energy(replace(problem, strain=float(between)), diameter, loop.strain)
+    for between in np.linspace(strain, whole, _RAISES + 1)[1:-1]:
+        partial = _energy(replace(problem, strain=float(between)), diameter, whole)
         limits = replace(_ON_THE_WAY, steady=tension_field)
         solved.append(_raised(partial, positions, mass, limits, backend))
         positions = solved[-1].minimum.positions
     limits = SearchLimits(gradient_limit(problem), steps=most_steps, steady=tension_field)
     solved.append(_raised(energy, positions, mass, limits, backend))
     found = account(scene, problem, solved[-1:], lenient=allow_unreliable)
-    return replace(
+    found = replace(
         found,
         steps=sum(s.minimum.steps for s in solved),
         factorizations=sum(s.minimum.factorizations for s in solved),
         contact=_contact_account(energy, found, before),
     )
+    if not isinstance(asked, SheetScene):
+        return found
+    return in_unit_of(asked, replace(found, free_motions=free_motions(solved[-1], problem)))

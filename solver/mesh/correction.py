@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.mesh.krylov import QuadraticModel
-from solver.mesh.mesh_energy import MeshEnergy
+from solver.mesh.mesh_energy import Energy
 
 Vectors = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ class Move:
 
 
 def corrected(
-    energy: MeshEnergy, model: QuadraticModel, positions: Vectors, move: Move, wanted: float
+    energy: Energy, model: QuadraticModel, positions: Vectors, move: Move, wanted: float
 ) -> Move:
     """Bend a move until the energy is down to what was wanted, or no correction helps.
 

@@ -25,6 +25,12 @@ _SOFT_WIRE = 30.0
 _NEARLY = 1e-6
 """Part of the energy that a coarse mesh's shape may lack: it is only where the next one starts."""
 _SMALLEST_GRADIENT = 1e-8
+_LIMP_FABRIC = 1e-3
+"""α with which a finer mesh loses the kinks that linear interpolation leaves in it.
+
+Fabric much stiffer would rather crush triangles than wait for that.
+"""
+_SMOOTHLY = 1e-5
 
 
 @dataclass(frozen=True)
@@ -38,7 +44,7 @@ class Solved:
 
 def mass_of(mesh: Mesh) -> Vectors:
     """Weight (n,) of each vertex in mean squares: its share of fabric over that of one loop."""
-    return mesh.vertex_areas / np.pi
+    return mesh.vertex_weights / np.pi
 
 
 def solved_on(
@@ -69,6 +75,11 @@ def gradient_limit(problem: MeshProblem) -> float:
     return max(_SMALLEST_GRADIENT, 1e-11 * stiffest)
 
 
+def nearly_solved(problem: MeshProblem, level: int, start: Vectors, backend: str | None) -> Solved:
+    """Minimise until next to nothing is left to gain; a saddle point may be such a shape."""
+    return solved_on(problem, level, start, backend, SearchLimits(decrease=_NEARLY))
+
+
 def descend(
     problem: MeshProblem, first: int, start: Vectors, backend: str | None, most_steps: int
 ) -> list[Solved]:
@@ -79,6 +90,12 @@ def descend(
     for k in range(first, len(meshes)):
         if k > first:
             start = prolonged(meshes[k - 1], meshes[k], found[-1].minimum.positions)
+            if problem.alpha > _LIMP_FABRIC:
+                limp = replace(problem, alpha=_LIMP_FABRIC)
+                found.append(
+                    solved_on(limp, k, start, backend, replace(limits, decrease=_SMOOTHLY))
+                )
+                start = found[-1].minimum.positions
         finest = k == len(meshes) - 1
         asked = limits if finest else replace(limits, decrease=_NEARLY)
         found.append(solved_on(problem, k, start, backend, asked))

@@ -8,11 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.mesh.scene import ArrayScene
+from solver.mesh.any_scene import MeshScene, size_of, thickest_wire
 from solver.mesh.self_contact import LOOKED, SelfContact, self_contact
 from solver.mesh.triangulation import Mesh
-from solver.round_wire import wire_diameter
-from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
 
@@ -24,7 +22,7 @@ class ContactAccount:
     Attributes
     ----------
     wire_diameter : float
-        That the wires were given.
+        That the wires were given: the thickest one's.
     before : SelfContact, optional
         How near the shape without contact came to itself, where that was looked at.
     touching : int
@@ -48,7 +46,7 @@ class MeshEquilibrium:
 
     Attributes
     ----------
-    scene : LoopScene or ArrayScene
+    scene : LoopScene, ArrayScene or SheetScene
     mesh : Mesh
         The finest.
     positions : array (n, 3)
@@ -67,7 +65,8 @@ class MeshEquilibrium:
     height : float
         From the lowest to the highest point of all wires, along the axis of their area vector.
     loop_heights : array (w,)
-        The same of each loop along its own axis.
+        The same of each loop along its own axis; of an open wire, how far it comes from the line
+        between its ends.
     coarser_height : float
         The height on the mesh before the last, which is solved to a millionth of its energy; not a
         number when there is only one.
@@ -78,11 +77,15 @@ class MeshEquilibrium:
         of those that are wrinkled or slack.
     tension_field : bool
         Whether the fabric was let wrinkle instead of bearing compression.
+    perimeter : float
+        Length of one loop's wire as it lies flat, the mean of all; units of R.
+    free_motions : int or None
+        Motions that cost next to nothing, beside rigid ones; counted in general scenes.
     contact : ContactAccount, optional
         Where the shape was kept from passing through itself.
     """
 
-    scene: LoopScene | ArrayScene
+    scene: MeshScene
     mesh: Mesh
     positions: Vectors
     status: str
@@ -97,18 +100,20 @@ class MeshEquilibrium:
     smallest_stress: float
     compressed_fraction: float
     tension_field: bool = False
+    perimeter: float = 2 * np.pi
+    free_motions: int | None = None
     contact: ContactAccount | None = None
 
     @property
     def wire_diameter(self) -> float:
-        """Diameter of the wires, units of R; see `solver.round_wire`."""
-        scene = self.scene
-        return wire_diameter(scene.loop if isinstance(scene, ArrayScene) else scene)
+        """Diameter of the thickest wire, units of R; see `solver.round_wire`."""
+        return thickest_wire(self.scene)
 
     @cached_property
     def distances(self) -> SelfContact:
         """How near the shape comes to itself."""
-        return self_contact(self.mesh, self.positions, max(LOOKED, 2 * self.wire_diameter))
+        looked = max(LOOKED * size_of(self.scene), 2 * self.wire_diameter)
+        return self_contact(self.mesh, self.positions, looked)
 
     @property
     def meets_itself(self) -> bool:
@@ -129,5 +134,5 @@ class MeshEquilibrium:
 
     @property
     def height_over_perimeter(self) -> float:
-        """Height over the length of one loop's wire, h/(2π R)."""
-        return self.height / (2 * np.pi)
+        """Height over the length of one loop's wire."""
+        return self.height / self.perimeter

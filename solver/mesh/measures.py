@@ -20,7 +20,10 @@ def area_vector(loop: Vectors) -> Vectors:
 
 
 def _top(values: Vectors) -> float:
-    """Largest value of a closed chain, by the parabola through its largest three in a row."""
+    """Largest value of a chain, by the parabola through its largest three in a row.
+
+    The last is next to the first.
+    """
     k = int(np.argmax(values))
     before, at, after = values[k - 1], values[k], values[(k + 1) % len(values)]
     bend = 2 * at - before - after
@@ -33,17 +36,38 @@ def rise(loop: Vectors, axis: Vectors) -> float:
     return _top(values) + _top(-values)
 
 
+def bow(wire: Vectors) -> float:
+    """Largest distance of a chain of positions (n, 3) from the line between its ends."""
+    along = wire[-1] - wire[0]
+    arms = wire - wire[0]
+    length = float(np.linalg.norm(along))
+    if length == 0:
+        return float(np.linalg.norm(arms, axis=1).max())
+    return float(np.linalg.norm(np.cross(arms, along / length), axis=1).max())
+
+
 def loop_heights(positions: Vectors, wires: tuple[Wire, ...]) -> Vectors:
-    """Height (w,) of each closed wire along its own axis, units of R."""
-    loops = [positions[wire.vertices] for wire in wires]
-    return np.array([rise(loop, area_vector(loop)) for loop in loops])
+    """Height (w,) of each closed wire along its own axis, and bow of each open one; units of R."""
+    chains = [(positions[wire.vertices], wire.closed) for wire in wires]
+    return np.array(
+        [rise(chain, area_vector(chain)) if closed else bow(chain) for chain, closed in chains]
+    )
+
+
+def _common_axis(positions: Vectors, wires: tuple[Wire, ...]) -> Vectors:
+    """Give the unit axis (3,) of all closed wires; without any, that of least extent."""
+    loops = [positions[wire.vertices] for wire in wires if wire.closed]
+    if loops:
+        total = np.sum([area_vector(loop) for loop in loops], axis=0)
+        return total / np.linalg.norm(total)
+    everything = np.concatenate([positions[wire.vertices] for wire in wires])
+    return np.linalg.svd(everything - everything.mean(axis=0))[2][-1]
 
 
 def total_height(positions: Vectors, wires: tuple[Wire, ...]) -> float:
-    """Extent of all closed wires together along the axis of all, units of R."""
-    loops = [positions[wire.vertices] for wire in wires]
-    axis = np.sum([area_vector(loop) for loop in loops], axis=0)
-    axis = axis / np.linalg.norm(axis)
-    tops = [_top(loop @ axis) for loop in loops]
-    bottoms = [_top(-(loop @ axis)) for loop in loops]
+    """Extent of all wires together along the axis of the closed ones, units of R."""
+    axis = _common_axis(positions, wires)
+    chains = [(positions[wire.vertices] @ axis, wire.closed) for wire in wires]
+    tops = [_top(along) if closed else float(along.max()) for along, closed in chains]
+    bottoms = [_top(-along) if closed else float((-along).max()) for along, closed in chains]
     return max(tops) + max(bottoms)

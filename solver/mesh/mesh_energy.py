@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -13,6 +13,10 @@ from solver.mesh.assembly import FamilyAssembly, LowerPattern, block_pattern, fa
 from solver.mesh.elements import Curvature, Elements, Stretching
 
 Vectors = NDArray[np.float64]
+
+
+Family = Elements | tuple[Elements, ...]
+"""One term's elements; a tuple where they have different numbers of vertices."""
 
 
 class Energy(Protocol):
@@ -37,6 +41,10 @@ class Energy(Protocol):
         """Energy, gradient (n, 3) and the entries (nnz,) of the Hessian's lower triangle."""
         ...
 
+    def excess(self, positions: Vectors, move: Vectors, reached: Vectors) -> Vectors:
+        """Pull (3n,) of the stretch that a move (n, 3) brings beyond what is linear in it."""
+        ...
+
 
 @dataclass(frozen=True)
 class MeshEnergy:
@@ -47,20 +55,24 @@ class MeshEnergy:
     families : mapping
         Elements by the name of their term.
     assemblies : mapping
-        Where each family's derivatives go.
+        Where the derivatives of each of them go.
     pattern : LowerPattern
         Of the Hessian.
     """
 
-    families: Mapping[str, Elements]
-    assemblies: Mapping[str, FamilyAssembly]
+    families: Mapping[str, tuple[Elements, ...]]
+    assemblies: Mapping[str, tuple[FamilyAssembly, ...]]
     pattern: LowerPattern
+
+    def _placed(self) -> Iterator[tuple[Elements, FamilyAssembly]]:
+        for name, family in self.families.items():
+            yield from zip(family, self.assemblies[name], strict=True)
 
     def terms(self, positions: Vectors) -> dict[str, float]:
         """Energy by term at positions (n, 3)."""
         return {
-            name: float(elements.energies(positions[elements.vertices]).sum())
-            for name, elements in self.families.items()
+            name: sum(float(e.energies(positions[e.vertices]).sum()) for e in family)
+            for name, family in self.families.items()
         }
 
     def value(self, positions: Vectors) -> float:
@@ -74,27 +86,32 @@ class MeshEnergy:
         value = 0.0
         gradient = np.zeros(self.pattern.size)
         entries = np.zeros(len(self.pattern.rows))
-        for name, elements in self.families.items():
+        for elements, assembly in self._placed():
             found = elements.derivatives(positions[elements.vertices], curvature)
             value += float(found[0].sum())
-            gradient += self.assemblies[name].gradient(found[1], self.pattern.size)
-            entries += self.assemblies[name].hessian(found[2], len(self.pattern.rows))
+            gradient += assembly.gradient(found[1], self.pattern.size)
+            entries += assembly.hessian(found[2], len(self.pattern.rows))
         return value, gradient.reshape(-1, 3), entries
 
     def excess(self, positions: Vectors, move: Vectors, reached: Vectors) -> Vectors:
         """Pull (3n,) of the stretch that a move (n, 3) brings beyond what is linear in it."""
         pull = np.zeros(self.pattern.size)
-        for name, elements in self.families.items():
+        for elements, assembly in self._placed():
             if isinstance(elements, Stretching):
                 where = elements.vertices
                 found = elements.excess(positions[where], move[where], reached[where])
-                pull += self.assemblies[name].gradient(found, self.pattern.size)
+                pull += assembly.gradient(found, self.pattern.size)
         return pull
 
 
-def mesh_energy(families: Mapping[str, Elements], vertices: int) -> MeshEnergy:
+def mesh_energy(families: Mapping[str, Family], vertices: int) -> MeshEnergy:
     """Sum of families of elements on so many vertices; empty families are left out."""
-    present = {name: e for name, e in families.items() if len(e.vertices)}
-    blocks = block_pattern([e.vertices for e in present.values()], vertices)
-    assemblies = {name: family_assembly(e.vertices, blocks) for name, e in present.items()}
+    listed = {name: f if isinstance(f, tuple) else (f,) for name, f in families.items()}
+    filled = {name: tuple(e for e in f if len(e.vertices)) for name, f in listed.items()}
+    present = {name: family for name, family in filled.items() if family}
+    blocks = block_pattern([e.vertices for f in present.values() for e in f], vertices)
+    assemblies = {
+        name: tuple(family_assembly(e.vertices, blocks) for e in family)
+        for name, family in present.items()
+    }
     return MeshEnergy(present, assemblies, blocks.lower())

@@ -30,7 +30,7 @@ _NEXT_TO_NOTHING = 1e-10
 _LITTLE = 1e-6
 """Part of the energy that a way down from a minimum may still gain where fabric is wrinkled."""
 _STALLED_STEPS = 10
-"""Steps in a row that gain so little together where fabric is wrinkled."""
+"""Steps in a row that gain so little together where fabric is wrinkled, or mere rounding."""
 _ALL_BUT_FREE = 1e-3
 """Largest stiffness of such a motion, in units of E_f t."""
 _SMALL_GRADIENT = 1e-4
@@ -191,11 +191,18 @@ def _settled(search: _Search, state: _State, model: QuadraticModel) -> bool:
 
 
 def _stalled(search: _Search, state: _State) -> bool:
-    """Whether steps over the kinks of wrinkled fabric gain next to nothing, many in a row."""
-    if not search.limits.steady or state.gradient_norm > _SMALL_GRADIENT:
+    """Whether many steps in a row gain next to nothing.
+
+    Those over the kinks of wrinkled fabric do; so do all where only rounding is left to gain, and
+    there negative eigenvalues are rounding too: a bare wire that is free of stress has many motions
+    without stiffness, which the slightest push in it makes unstable.
+    """
+    limits = search.limits
+    if state.gradient_norm > (_SMALL_GRADIENT if limits.steady else limits.gradient):
         return False
     before = search.account.values[-1 - _STALLED_STEPS : -_STALLED_STEPS]
-    return bool(before) and before[0] - state.value <= _LITTLE * abs(state.value)
+    little = _LITTLE * abs(state.value) if limits.steady else _noise(state.value)
+    return bool(before) and before[0] - state.value <= little
 
 
 def _at_rest(search: _Search, state: _State, model: QuadraticModel) -> bool:

@@ -5,40 +5,55 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.checks import CLOSENESS, CONTACT, LARGEST_WIRE_STRAIN, SLACK, TWIST, writhe
+from solver.checks import (
+    CLOSENESS,
+    CONTACT,
+    LARGEST_WIRE_STRAIN,
+    SLACK,
+    SMALLEST_TWIST,
+    TWIST,
+    TWIST_MEASURE,
+    gauss_left_out,
+    writhe,
+)
+from solver.fabric_bending import finest_wrinkle
+from solver.mesh.any_scene import fabric_of, wires_of
 from solver.mesh.equilibrium import MeshEquilibrium
-from solver.mesh.scene import ArrayScene
+from solver.mesh.star_bending import star_gauss_integral
 from solver.mesh.triangulation import Wire
+from solver.mesh.wire_twist import twist_stiffness
 from solver.omitted import OmittedTerm
+from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 
 Vectors = NDArray[np.float64]
 
 MOST_WRITHE_POINTS = 160
+_EDGES_PER_WAVE = 4
 
 
 def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
     """Measure what the model leaves out, on the shape that it gave."""
-    loops = [found.positions[wire.vertices] for wire in found.mesh.wires]
     strain = max(_wire_strain(found, wire) for wire in found.mesh.wires)
-    turns = max(abs(writhe(_thinned(loop))) for loop in loops)
-    scene = found.scene.loop if isinstance(found.scene, ArrayScene) else found.scene
+    scene = fabric_of(found.scene)
     slack = OmittedTerm(
         SLACK,
         "largest compressive stress / E_f",
         max(0.0, -found.smallest_stress),
-        matters=found.smallest_stress < 0 < scene.strain,
+        matters=scene.strain > 0 and wrinkles_escape(found),
     )
     # a term that the energy has is not omitted
     return (
         *(() if found.tension_field else (slack,)),
         *(() if found.contact else (_contact(found),)),
-        OmittedTerm(TWIST, "writhe of a loop", turns, matters=turns > 1e-3),
+        *_twist_left_out(found),
+        *_gauss_left_out(found, scene),
         OmittedTerm(
             "wire's softness beyond small stretch",
             "largest wire strain",
             strain,
             matters=strain > LARGEST_WIRE_STRAIN,
         ),
+        *_weight(found),
     )
 
 
@@ -56,13 +71,60 @@ def _contact(found: MeshEquilibrium) -> OmittedTerm:
     )
 
 
+def _weight(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
+    """Weight, which would pick one of the shapes that free motions lead through."""
+    if found.free_motions is None:
+        return ()
+    term, measure = "weight among free motions", "motions that cost next to nothing"
+    return (OmittedTerm(term, measure, found.free_motions, matters=found.free_motions > 0),)
+
+
+def wrinkles_escape(found: MeshEquilibrium) -> bool:
+    """Whether compressed fabric may have wrinkles that are too fine for the mesh.
+
+    A wave takes four edges of a wire, at least.
+    """
+    lengths = [float(_lengths(found.mesh.points, wire).mean()) for wire in found.mesh.wires]
+    finest = 2 * np.pi / (_EDGES_PER_WAVE * max(lengths))
+    return finest_wrinkle(found.smallest_stress, fabric_of(found.scene).alpha) > finest
+
+
+def lacks_twist(found: MeshEquilibrium) -> bool:
+    """Whether a shape writhes and its wires' twist, which only straight wire has, was left out."""
+    straight = all(wire.natural_curvature == 0 for wire in wires_of(found.scene))
+    return straight and any(left.matters for left in _twist_left_out(found))
+
+
+def _twist_left_out(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
+    """Twist of the wires that have none in the energy: the largest, over the energy of a loop."""
+    own, mesh = wires_of(found.scene), found.mesh
+    energies = [
+        twist_stiffness(mesh, wire, stiffness, ROUND_WIRE_TWIST_RATIO)
+        * writhe(_thinned(found.positions[wire.vertices])) ** 2
+        for wire, stiffness in zip(mesh.wires, own, strict=True)
+        if wire.closed and stiffness.twist_ratio == 0
+    ]
+    if not energies:
+        return ()
+    share = max(energies) * len(own) / found.energy
+    return (OmittedTerm(TWIST, TWIST_MEASURE, share, matters=share > SMALLEST_TWIST),)
+
+
+def _gauss_left_out(found: MeshEquilibrium, scene: LoopScene) -> tuple[OmittedTerm, ...]:
+    if scene.alpha == 0:
+        return ()
+    curved = star_gauss_integral(found.mesh, found.positions)
+    return gauss_left_out(scene.alpha, scene.poisson, curved, found.energy)
+
+
+def _lengths(points: Vectors, wire: Wire) -> Vectors:
+    """Length (e,) of a wire's edges between points (n, 2) or (n, 3)."""
+    return np.linalg.norm(points[wire.edges[:, 1]] - points[wire.edges[:, 0]], axis=1)
+
+
 def _wire_strain(found: MeshEquilibrium, wire: Wire) -> float:
-    now, flat = (_edges(points[wire.vertices]) for points in (found.positions, found.mesh.points))
+    now, flat = (_lengths(points, wire) for points in (found.positions, found.mesh.points))
     return float(np.abs(now / flat - 1).max())
-
-
-def _edges(loop: Vectors) -> Vectors:
-    return np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
 
 
 def _thinned(loop: Vectors) -> Vectors:

@@ -13,15 +13,22 @@ Vectors = NDArray[np.float64]
 _BLOCK = 3
 _MOST_ITERATIONS = 30
 _TOLERANCE = 1e-3
+_NO_MOTION = 1e-9
 
 
 def rigid_motions(positions: Vectors, mass: Vectors) -> Vectors:
-    """Translations and turns of a shape, (3n, 6), orthonormal in the mean square by mass (n,)."""
+    """Translations and turns of a shape, (3n, 6), orthonormal in the mean square by mass (n,).
+
+    They are five where all vertices lie on a line.
+    """
     arms = positions - mass @ positions / mass.sum()
     axes = np.eye(3)
     shifts: list[Vectors] = [np.tile(axis, len(arms)) for axis in axes]
     turns: list[Vectors] = [np.asarray(np.cross(axis, arms), np.float64).ravel() for axis in axes]
-    return _orthonormal(np.stack(shifts + turns, axis=1), np.repeat(mass, 3))
+    columns = np.stack(shifts + turns, axis=1)
+    root = np.sqrt(np.repeat(mass, 3))[:, None]
+    modes, sizes, _ = np.linalg.svd(root * columns, full_matrices=False)
+    return modes[:, sizes > _NO_MOTION * sizes[0]] / root
 
 
 def _orthonormal(columns: Vectors, weights: Vectors) -> Vectors:

@@ -50,7 +50,7 @@ class BendingEnergy:
         gradient, hessian = turn.derivatives(of)
         if curvature is Curvature.CONVEX:
             hessian = convex_part(hessian)
-        return of.f, gradient @ _FROM_EDGES, _FROM_EDGES.T @ hessian @ _FROM_EDGES
+        return of.f, gradient @ FROM_EDGES, FROM_EDGES.T @ hessian @ FROM_EDGES
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def _edges(corners: Vectors) -> Turn:
     return Turn(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1])
 
 
-_FROM_EDGES = np.kron(np.array([[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0]]), np.eye(3))
+FROM_EDGES = np.kron(np.array([[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0]]), np.eye(3))
 """The two edge vectors (6) from the three corners (9)."""
 
 
@@ -145,11 +145,12 @@ _STRAIGHT = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class WireStiffness:
-    """β, k = E_w A_w/(E_f t R) and κ0 of one wire; as in `solver.scene.LoopScene`."""
+    """β, k = E_w A_w/(E_f t R), κ0 and ρ of one wire; as in `solver.scene.LoopScene`."""
 
     beta: float
     axial_stiffness: float
     natural_curvature: float = 0.0
+    twist_ratio: float = 0.0
 
 
 def rod_energies(

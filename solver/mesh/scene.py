@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from solver.errors import SceneError
@@ -64,6 +64,13 @@ class ArrayScene:
             )
         if any(not (wire.beta > 0 and wire.axial_stiffness > 0) for wire in self.wires):
             raise SceneError("beta and axial_stiffness of every wire must be greater than 0")
+        if any(not wire.twist_ratio >= 0 for wire in self.wires):
+            raise SceneError("twist_ratio of every wire must be at least 0")
+
+    def twisted(self, twist_ratio: float) -> ArrayScene:
+        """Give the same with that ρ of every wire."""
+        wires = tuple(replace(wire, twist_ratio=twist_ratio) for wire in self.wires)
+        return replace(self, loop=replace(self.loop, twist_ratio=twist_ratio), wires=wires)
 
     @property
     def grid(self) -> Grid:
@@ -78,4 +85,6 @@ class ArrayScene:
 
 def loop_wire(scene: LoopScene) -> WireStiffness:
     """Wire of a loop."""
-    return WireStiffness(scene.beta, scene.axial_stiffness, scene.natural_curvature)
+    return WireStiffness(
+        scene.beta, scene.axial_stiffness, scene.natural_curvature, scene.twist_ratio
+    )

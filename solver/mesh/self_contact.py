@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from solver.mesh.faces import area
 from solver.mesh.segments import on_both_sides, pierces, segment_distance, segment_triangle_distance
 from solver.mesh.triangulation import Mesh, embedded
 
@@ -21,7 +22,7 @@ Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 NEIGHBOURS = 0.3
-"""Parts that are nearer than this when flat, over the smallest half-width of a loop, are no
+"""Parts that are nearer than this when flat, over the half-width of the narrowest loop, are no
 measure of how near the shape comes to itself."""
 
 LOOKED = 0.1
@@ -64,7 +65,7 @@ class _Parts:
     def radius(self) -> float:
         """Of the smallest ball about its middle that holds any of them."""
         arms = self.now - self.middles[:, None]
-        return float(np.linalg.norm(arms, axis=2).max())
+        return float(np.linalg.norm(arms, axis=2).max(initial=0.0))
 
 
 def _parts(vertices: Indices, mesh: Mesh, positions: Vectors) -> _Parts:
@@ -128,9 +129,20 @@ def crossings(mesh: Mesh, positions: Vectors) -> int:
     return int(np.sum(pierces(start[i], end[i], triangles.now[j])))
 
 
+def _half_width(mesh: Mesh) -> float:
+    """Of the narrowest closed wire, twice its area over its length; of open wires, length / 2π."""
+    lengths, widths = [], []
+    for wire in mesh.wires:
+        ends = mesh.points[wire.edges]
+        lengths.append(float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()))
+        if wire.closed:
+            widths.append(2 * abs(area(mesh.points, wire.vertices)) / lengths[-1])
+    return min(widths) if widths else float(np.mean(lengths)) / (2 * math.pi)
+
+
 def self_contact(mesh: Mesh, positions: Vectors, within: float = LOOKED) -> SelfContact:
     """Measure how near a mesh at positions (n, 3) comes to itself, as far as ``within``."""
-    near = NEIGHBOURS * min(min(region.semi_axes) for region in mesh.rounds)
+    near = NEIGHBOURS * _half_width(mesh)
     wires = _parts(np.concatenate([wire.edges for wire in mesh.wires]), mesh, positions)
     triangles = _parts(mesh.triangles, mesh, positions)
     return SelfContact(

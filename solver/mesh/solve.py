@@ -12,6 +12,7 @@ from solver.mesh.array_mesh import Between
 from solver.mesh.descent import descend, roughly_solved
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.loop_mesh import SEGMENTS
+from solver.mesh.lower_saddle import rough_saddles
 from solver.mesh.problem import MeshProblem, array_problem, loop_problem
 from solver.mesh.scene import ArrayScene
 from solver.mesh.start import aligned_saddle, array_start, loop_start, tiled_start
@@ -78,9 +79,14 @@ def solve_loop_mesh(
         solved = descend(problem, refinement, start, backend, most_steps)
     else:
         first = min(_COARSEST_LOOP, refinement)
-        lifted = loop_start(problem.energy(first), problem.meshes[first], flat_radius(scene))
-        rough = roughly_solved(problem, first, lifted, backend, _ROUGHLY)
-        solved = [rough, *descend(problem, first, rough.minimum.positions, backend, most_steps)]
+        radius = flat_radius(scene)
+        if scene.twist_ratio > 0 and not scene.isotropic_circle:
+            rough = rough_saddles(problem, first, radius, backend, _ROUGHLY)
+        else:
+            lifted = loop_start(problem.energy(first), problem.meshes[first], radius)
+            rough = [roughly_solved(problem, first, lifted, backend, _ROUGHLY)]
+        begun = rough[-1].minimum.positions
+        solved = [*rough, *descend(problem, first, begun, backend, most_steps)]
     return account(scene, problem, solved, lenient=allow_unreliable)
 
 

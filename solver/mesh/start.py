@@ -24,8 +24,16 @@ def _disc_coordinates(mesh: Mesh) -> Vectors:
 def loop_start(energy: MeshEnergy, mesh: Mesh, radius: float) -> Vectors:
     """Positions (n, 3) of one loop, lifted along the softer of the two saddles if that is unstable.
 
+    Arguments are those of `loop_starts`.
+    """
+    return loop_starts(energy, mesh, radius)[0]
+
+
+def loop_starts(energy: MeshEnergy, mesh: Mesh, radius: float) -> tuple[Vectors, ...]:
+    """Positions (n, 3) of one loop lifted along each saddle that is unstable, the softer one first.
+
     The saddle x² − y² has its crests on the axes of an ellipse, x y between them. On a round loop
-    they are alike, and the first is taken.
+    they are alike, and the first is taken. Where both are stiff there is one start, flat.
 
     Parameters
     ----------
@@ -39,9 +47,8 @@ def loop_start(energy: MeshEnergy, mesh: Mesh, radius: float) -> Vectors:
     hessian = symmetric_product(energy.pattern, energy.derivatives(flat)[2])
     stiffness = [float(lift @ hessian(lift)) for lift in lifts.reshape(-1, 2).T]
     aligned, diagonal = stiffness
-    softer = 1 if diagonal < aligned - _ALIKE * abs(aligned) else 0
-    # where both are stiff, flat is where to begin
-    return flat + (_AMPLITUDE * lifts[:, :, softer] if stiffness[softer] < 0 else 0.0)
+    order = (1, 0) if diagonal < aligned - _ALIKE * abs(aligned) else (0, 1)
+    return tuple(flat + _AMPLITUDE * lifts[:, :, k] for k in order if stiffness[k] < 0) or (flat,)
 
 
 def array_start(mesh: Mesh) -> Vectors:

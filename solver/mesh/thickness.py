@@ -33,7 +33,7 @@ def _thin_measure(mesh: Mesh, wire_diameter: float, strain: float) -> float:
     """
     sides = np.diff(mesh.points[mesh.triangles[:, [0, 1, 2, 0]]], axis=1)
     altitudes = 2 * mesh.areas / np.linalg.norm(sides, axis=2).max(axis=1)
-    return min(wire_diameter, float(altitudes.min()) / (1 + strain))
+    return min(wire_diameter, float(altitudes.min(initial=np.inf)) / (1 + strain))
 
 
 def thickness_barriers(mesh: Mesh, wire_diameter: float, strain: float) -> tuple[Barrier, ...]:

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.errors import SceneError
+from solver.mesh.curve import rotation
+from solver.mesh.wire import Wire, interleaved
 
 Vectors = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -18,46 +20,8 @@ GAP = -1
 
 
 @dataclass(frozen=True)
-class Wire:
-    """A wire along the edges from each vertex to the next, back to the first when closed."""
-
-    vertices: Indices
-    closed: bool = True
-
-    @property
-    def edges(self) -> Indices:
-        """Vertices (e, 2) at the ends of each edge, in the wire's order."""
-        following = np.roll(self.vertices, -1)
-        edges = np.stack([self.vertices, following], axis=1)
-        return edges if self.closed else edges[:-1]
-
-    @property
-    def corners(self) -> Indices:
-        """Vertices (c, 3) before, at and after each vertex at which the wire can bend."""
-        before, after = np.roll(self.vertices, 1), np.roll(self.vertices, -1)
-        corners = np.stack([before, self.vertices, after], axis=1)
-        return corners if self.closed else corners[1:-1]
-
-    def midway(self, values: Vectors) -> Vectors:
-        """Values (e, d) in the middle of each edge from those at all vertices, by cubics.
-
-        A wire's bending would feel the kinks of a linear interpolation.
-        """
-        along = values[self.vertices]
-        if self.closed:
-            before, after = np.roll(along, 1, axis=0), np.roll(along, -1, axis=0)
-            return (9 * (along + after) - before - np.roll(along, -2, axis=0)) / 16
-        if len(along) < 4:
-            return (along[:-1] + along[1:]) / 2
-        inner = (9 * (along[1:-2] + along[2:-1]) - along[:-3] - along[3:]) / 16
-        first = (5 * along[:1] + 15 * along[1:2] - 5 * along[2:3] + along[3:4]) / 16
-        last = (5 * along[-1:] + 15 * along[-2:-1] - 5 * along[-3:-2] + along[-4:-3]) / 16
-        return np.concatenate([first, inner, last])
-
-
-@dataclass(frozen=True)
 class RoundRegion:
-    """A flat loop: an ellipse with its axes along x and y.
+    """A flat loop: an ellipse, its first axis turned from x by an angle in radians.
 
     Refinement keeps the image of every vertex in the unit disc at the mean radius of the two it
     lies between, so that the edge's vertices stay on the ellipse.
@@ -65,15 +29,17 @@ class RoundRegion:
 
     centre: tuple[float, float] = (0.0, 0.0)
     semi_axes: tuple[float, float] = (1.0, 1.0)
+    angle: float = 0.0
 
     def between(self, one: Vectors, other: Vectors) -> Vectors:
         """Points (n, 2) between two rows of points (n, 2)."""
-        a, b = (one - self.centre) / self.semi_axes, (other - self.centre) / self.semi_axes
+        back, forth = rotation(-self.angle), rotation(self.angle)
+        a, b = ((p - self.centre) @ back / self.semi_axes for p in (one, other))
         middle = (a + b) / 2
         length = np.linalg.norm(middle, axis=1)
         wanted = (np.linalg.norm(a, axis=1) + np.linalg.norm(b, axis=1)) / 2
         scale = np.where(length > 1e-12, wanted / np.maximum(length, 1e-12), 1.0)
-        return self.centre + middle * scale[:, None] * self.semi_axes
+        return self.centre + middle * scale[:, None] * self.semi_axes @ forth
 
 
 @dataclass(frozen=True)
@@ -86,12 +52,15 @@ class Mesh:
     triangles : array (m, 3)
         Vertices, counterclockwise.
     region : array (m,)
-        Index into ``rounds`` of the loop in which a triangle lies, or `GAP`.
+        Index into ``rounds`` of the loop in which a triangle lies, or `GAP`, where new vertices
+        are put straight between the old.
     rounds : tuple of RoundRegion
     wires : tuple of Wire
     parents : array (n, 2)
         Vertices of the mesh this one was refined from, between which each vertex was put; twice the
         same for a vertex that was there before. A mesh that was not refined is its own parent.
+    borders : tuple of Wire
+        Chains along curves that bound fabric without a wire.
     """
 
     points: Vectors
@@ -100,6 +69,12 @@ class Mesh:
     rounds: tuple[RoundRegion, ...]
     wires: tuple[Wire, ...]
     parents: Indices
+    borders: tuple[Wire, ...] = ()
+
+    @property
+    def chains(self) -> tuple[Wire, ...]:
+        """Wires and borders."""
+        return (*self.wires, *self.borders)
 
     @cached_property
     def areas(self) -> Vectors:
@@ -119,6 +94,22 @@ class Mesh:
         total = np.bincount(self.triangles.ravel(), share, minlength=len(self.points))
         return total.astype(np.float64, copy=False)
 
+    @cached_property
+    def vertex_weights(self) -> Vectors:
+        """Share (n,) of the fabric; of wire without fabric beside it, half its length times 1.
+
+        A bare ring of radius 1 weighs as much as the disc it bounds.
+        """
+        shares = self.vertex_areas.copy()
+        bare = shares == 0
+        for wire in self.wires:
+            ends = wire.edges
+            half = np.linalg.norm(self.points[ends[:, 1]] - self.points[ends[:, 0]], axis=1) / 4
+            for vertices in ends.T:
+                on = bare[vertices]
+                np.add.at(shares, vertices[on], half[on])
+        return shares
+
 
 def embedded(points: Vectors) -> Vectors:
     """Flat points (n, 2) as positions (n, 3) with z = 0."""
@@ -131,6 +122,8 @@ def unrefined(
     region: Indices,
     rounds: tuple[RoundRegion, ...],
     wires: tuple[Wire, ...],
+    *,
+    borders: tuple[Wire, ...] = (),
 ) -> Mesh:
     """Make a mesh that is its own parent.
 
@@ -140,8 +133,8 @@ def unrefined(
         When a triangle is degenerate or runs clockwise.
     """
     itself = np.repeat(np.arange(len(points))[:, None], 2, axis=1)
-    mesh = Mesh(points, triangles, region, rounds, wires, itself)
-    if mesh.areas.min() <= 0:
+    mesh = Mesh(points, triangles, region, rounds, wires, itself, borders)
+    if (mesh.areas <= 0).any():
         raise SceneError("a triangle of the mesh has no area or runs clockwise")
     return mesh
 
@@ -154,10 +147,13 @@ class _Midpoints:
         sides = np.stack([t, np.roll(t, -1, axis=1)], axis=2).reshape(-1, 2)
         count = len(mesh.points)
         self._count = count
+        of_chains = [chain.edges for chain in mesh.chains]  # some have no fabric beside them
+        sides = np.concatenate([sides, *of_chains])
         self._keys, position, of_side = np.unique(
             _edge_keys(sides, count), return_index=True, return_inverse=True
         )
         self.ends = np.sort(sides[position], axis=1)
+        of_side = of_side[: t.size]
         self.of_triangle = count + of_side.reshape(-1, 3)
         # an edge between a loop and a gap belongs to the loop
         self.region = np.full(len(self.ends), GAP, dtype=np.int64)
@@ -179,16 +175,16 @@ def _placed(mesh: Mesh, midpoints: _Midpoints) -> Vectors:
     for k, region in enumerate(mesh.rounds):
         inside = midpoints.region == k
         placed[inside] = region.between(one[inside], other[inside])
+    for chain in mesh.chains:
+        if chain.track is not None:
+            on = midpoints.of(chain.edges) - len(mesh.points)
+            placed[on] = chain.track.curve.at(chain.track.between)
     return placed
 
 
 def _refined_wire(wire: Wire, midpoints: _Midpoints) -> Wire:
-    between = midpoints.of(wire.edges)
-    if wire.closed:
-        return Wire(np.stack([wire.vertices, between], axis=1).ravel())
-    chain = np.empty(2 * len(wire.vertices) - 1, dtype=np.int64)
-    chain[::2], chain[1::2] = wire.vertices, between
-    return Wire(chain, closed=False)
+    track = wire.track.refined() if wire.track is not None else None
+    return Wire(interleaved(wire.vertices, midpoints.of(wire.edges)), wire.closed, track)
 
 
 def refined(mesh: Mesh) -> Mesh:
@@ -206,6 +202,7 @@ def refined(mesh: Mesh) -> Mesh:
         rounds=mesh.rounds,
         wires=tuple(_refined_wire(wire, midpoints) for wire in mesh.wires),
         parents=np.concatenate([itself, midpoints.ends]),
+        borders=tuple(_refined_wire(border, midpoints) for border in mesh.borders),
     )
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from sesame_cad.errors import InputError
 from sesame_cad.files.evolver import evolver_datafile
+from solver.compact import solve_loop
 from solver.reading import Reading
 from solver.scene import LoopScene
 
@@ -152,6 +153,7 @@ def test_the_text_is_plain_and_always_the_same():
         (LoopScene(0.3, 0.0145, 0.3, axis_ratio=2), 2, 0.05, "circular loops"),
         (LoopScene(0.3, 0.0145, 0.3, modulus_ratio=1.1), 2, 0.05, "equally stiff"),
         (LoopScene(0.3, 0.0145, 0.3, natural_curvature=1), 2, 0.05, "straight by nature"),
+        (LoopScene(0.3, 0.0145, 0.3, twist_ratio=0.75), 2, 0.05, "without twist"),
     ],
 )
 def test_what_the_datafile_cannot_say_is_refused(scene, refinements, height, named):
@@ -185,6 +187,23 @@ def test_evolver_leaves_the_flat_start(tmp_path):
     printed, found = in_evolver(evolver_datafile(SCENE, 2, 0), tmp_path)
     assert "\nconverged" in printed
     assert found["energy"] == pytest.approx(0.3129675523362, rel=1e-10)
+
+
+@with_evolver
+def test_fabric_that_resists_bending(tmp_path):
+    """Other elements than ours, with the same limit."""
+    scene = LoopScene(0.3, 0.0145, 0.3, alpha=0.1)
+    coarse, fine = (in_evolver(evolver_datafile(scene, k), tmp_path)[1]["energy"] for k in (2, 3))
+    assert fine + (fine - coarse) / 3 == pytest.approx(solve_loop(scene).energy, rel=2e-4)
+    assert coarse > in_evolver(evolver_datafile(SCENE, 2), tmp_path)[1]["energy"] + 5e-5
+
+
+def test_bending_of_the_fabric_is_that_of_inner_vertices():
+    text = evolver_datafile(LoopScene(0.3, 0.0145, 0.3, alpha=0.1), 2)
+    vertices = sections(text)["vertices"]
+    assert "parameter fabric_stiffness = 0.1" in text
+    assert all(("fabric_bend" in words) != ("on_wire" in words) for words in vertices)
+    assert "fabric_bend" not in evolver_datafile(SCENE, 2)
 
 
 @with_evolver

@@ -111,3 +111,30 @@ def test_arrays_and_ellipses():
 def test_scenes_that_cannot_be(arguments, named, faults_of_command):
     (fault,) = faults_of_command([*LOOP, *arguments])
     assert named in fault
+
+
+def test_bending_of_the_fabric_and_twist_of_the_wire():
+    stiff = json.loads(_run("--alpha", "0.1", "--json").stdout)
+    assert stiff["energy_terms"]["fabric bending"] > 0
+    assert "fabric bending" in stiff["terms"]
+    limp = json.loads(_run("--alpha", "2.4e-5", "--json").stdout)
+    told = {left["term"]: left for left in limp["omitted_terms"]}["bending of the fabric"]
+    assert told["measure"] == "its energy / energy released by buckling"
+    assert 0 < told["value"] < 1e-5
+    ellipse = ("--axis-ratio", "1.2", "--fidelity", "compact", "--json")
+    twisted = json.loads(_run(*ellipse, "--twist-ratio", "0.75").stdout)
+    assert twisted["kind"] == "aligned"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["--alpha", "1.5"], "alpha = 1.5"),
+        (["--alpha", "-1"], "alpha = -1"),
+        (["--twist-ratio", "-1"], "twist_ratio = -1"),
+        (["--alpha", "0.1", "--fidelity", "scaling"], "alpha = 0"),
+    ],
+)
+def test_stiffnesses_that_cannot_be(arguments, named, faults_of_command):
+    (fault,) = faults_of_command([*LOOP, *arguments])
+    assert named in fault

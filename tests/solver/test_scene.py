@@ -20,7 +20,9 @@ from solver.scene import LoopScene
         ("modulus_ratio", 0.0),
         ("natural_curvature", -0.1),
         ("natural_curvature", 11.0),
-        ("alpha", 1e-3),
+        ("alpha", -1e-9),
+        ("alpha", 1.01),
+        ("alpha", float("nan")),
     ],
 )
 def test_numbers_out_of_range_are_refused_by_name(key, value):

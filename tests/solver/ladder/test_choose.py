@@ -2,17 +2,24 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
+from solver.checks import GAUSS, TWIST
 from solver.equilibrium import Kind
 from solver.errors import NotConvergedError, SceneError
 from solver.ladder.answer import Rung
 from solver.ladder.choose import solve_scene
+from solver.ladder.fabric_share import FABRIC_BENDING
 from solver.ladder.fidelity import Fidelity
 from solver.ladder.law import law_error
 from solver.mesh.array_mesh import Between
-from solver.mesh.scene import ArrayScene
+from solver.mesh.curve import circle, line
+from solver.mesh.rod_energy import WireStiffness
+from solver.mesh.scene import ArrayScene, Contact
+from solver.mesh.sheet import Joint, SheetScene, SheetWire
+from solver.mesh.solve_sheet import solve_sheet
 from solver.reading import Reading
 from solver.scene import LoopScene
 
@@ -81,6 +88,36 @@ def test_one_loop_rungs_refuse_arrays_that_do_not_tile(fidelity):
         solve_scene(ArrayScene(LOOP, 2, 2, Between.KEPT), fidelity=fidelity)
 
 
+def test_any_scene_is_meshed_until_it_is_near_enough():
+    """A wire across a loop: no other rung knows it."""
+    loop = SheetWire(circle((0.0, 0.0), 1.0), WireStiffness(0.0145, 1000.0))
+    across = SheetWire(line((-1.0, 0.0), (1.0, 0.0)), WireStiffness(0.0145, 1000.0))
+    ends = tuple(Joint((0, 1), (x, 0.0), Contact.POINT) for x in (-1.0, 1.0))
+    scene = SheetScene(LOOP, (loop, across), ends)
+    answer = solve_scene(scene, tolerance=0.01)
+    assert answer.rung is Rung.MESH
+    assert answer.height_error <= 0.01
+    finer = solve_sheet(answer.equilibrium.scene, refinement=3)  # with its wires' twist
+    exact = pytest.approx(finer.height_over_perimeter, rel=2 * answer.height_error)
+    assert answer.height_over_perimeter == exact
+    assert {"fabric stretch", "wire bending"} <= set(answer.terms)
+    for fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
+        with pytest.raises(SceneError, match="mesh solves any scene"):
+            solve_scene(scene, fidelity=fidelity)
+
+
+def test_free_hinges_are_told():
+    rods = (WireStiffness(0.2, 1000.0),) * 2
+    rings = tuple(
+        SheetWire(circle((2.0 * k, 0.0), 1.0), rod, spanned=False) for k, rod in enumerate(rods)
+    )
+    scene = SheetScene(LOOP, rings, (Joint((0, 1), (1.0, 0.0)),))
+    answer = solve_scene(scene, tolerance=0.05)
+    weight = next(o for o in answer.omitted if "weight" in o.term)
+    assert weight.matters
+    assert weight.value == 1
+
+
 def test_the_law_refuses_ellipses():
     with pytest.raises(SceneError, match="compact"):
         solve_scene(LoopScene(0.3, 0.0145, 0.3, axis_ratio=1.5), fidelity=Fidelity.SCALING)
@@ -133,3 +170,77 @@ def test_a_shape_with_writhe_gets_the_wires_twist():
 
 def test_a_round_loop_needs_no_twist():
     assert solve_scene(LOOP).equilibrium.scene.twist_ratio == 0
+
+
+def _told(answer, term):
+    return next(left for left in answer.omitted if left.term == term)
+
+
+@pytest.mark.parametrize(("axis_ratio", "beta"), [(1.0, 0.0145), (1.0, 0.038), (1.5, 0.0225)])
+def test_fabric_that_hardly_resists_bending_is_solved_without(axis_ratio, beta):
+    bare = LoopScene(0.3, beta, 0.3, axis_ratio=axis_ratio)
+    scene = replace(bare, alpha=1e-4)
+    answer = solve_scene(scene)
+    assert "fabric bending" not in answer.terms
+    share = _told(answer, FABRIC_BENDING).value
+    assert 0 < share < 3e-4
+    assert answer.height_over_perimeter == solve_scene(bare).height_over_perimeter
+    # the height changes by less than the share
+    kept = replace(answer.equilibrium.scene, alpha=1e-4)
+    heights = [
+        solve_scene(s, fidelity=Fidelity.COMPACT, tolerance=1e-6).height_over_perimeter
+        for s in (replace(kept, alpha=0.0), kept)
+    ]
+    assert abs(heights[1] / heights[0] - 1) < share
+
+
+def test_fabric_whose_bending_matters_has_it():
+    answer = solve_scene(replace(LOOP, alpha=0.1))
+    assert answer.rung is Rung.COMPACT
+    assert "fabric bending" in answer.terms
+    assert "of what buckling releases" in answer.reason
+    assert _told(answer, GAUSS).matters
+
+
+def test_a_tolerance_decides_what_matters():
+    coarse, fine = (solve_scene(replace(LOOP, alpha=1e-3), tolerance=t) for t in (1e-3, 1e-4))
+    assert "fabric bending" not in coarse.terms
+    assert "fabric bending" in fine.terms
+
+
+def test_a_mesh_tells_the_share_of_slack_fabric():
+    answer = solve_scene(LoopScene(0.3, 0.002, 0.3, alpha=1e-6), tolerance=1e-2)
+    assert "fabric stretch (tension field)" in answer.terms
+    assert 0 < _told(answer, FABRIC_BENDING).value < 1e-3
+
+
+def test_the_law_refuses_fabric_that_resists_bending():
+    with pytest.raises(SceneError, match="alpha = 0"):
+        solve_scene(replace(LOOP, alpha=1e-4), fidelity=Fidelity.SCALING)
+
+
+def test_a_flat_loop_has_no_bending():
+    answer = solve_scene(LoopScene(0.1, 0.03, 0.3, axis_ratio=1.2, alpha=1.0))
+    assert not answer.buckled
+    assert _told(answer, FABRIC_BENDING).value == 0
+
+
+def test_the_mesh_and_the_compact_rung_agree_on_twist_and_bending():
+    scene = LoopScene(0.3, 0.0225, 0.3, axis_ratio=1.5, twist_ratio=0.75, alpha=1e-3)
+    compact, mesh = (
+        solve_scene(scene, fidelity=fidelity, tolerance=0.05)
+        for fidelity in (Fidelity.COMPACT, Fidelity.MESH)
+    )
+    assert {"wire twist", "fabric bending"} <= set(compact.terms) & set(mesh.terms)
+    exact = compact.height_over_perimeter
+    assert mesh.height_over_perimeter == pytest.approx(exact, rel=2 * mesh.height_error)
+
+
+def test_an_array_that_writhes_gets_the_wires_twist():
+    loop = replace(LOOP, beta=0.0225, axis_ratio=1.5)
+    scene = ArrayScene(loop, 1, 2, Between.KEPT)
+    answer = solve_scene(scene, tolerance=0.05)
+    without = solve_scene(scene, tolerance=0.05, fidelity=Fidelity.MESH)
+    assert _told(without, TWIST).matters
+    assert "wire twist" in answer.terms
+    assert "twist was added" in answer.reason

@@ -50,9 +50,11 @@ def test_the_height_is_that_of_a_finer_mesh(closed):
 
 @pytest.mark.parametrize("field", [False, True])
 def test_a_loop_that_touches_nothing_is_as_without_contact(field):
-    alone = solve_loop_mesh(OPEN, refinement=2, tension_field=field)
     kept = solve_in_contact(OPEN, refinement=2, tension_field=field)
     assert kept.contact.touching == 0
+    # the fabric turns under the saddle all but freely: the minimum is told by where a solve begins
+    start = None if field else kept.positions
+    alone = solve_loop_mesh(OPEN, refinement=2, tension_field=field, start=start)
     assert kept.energy == pytest.approx(alone.energy, rel=1e-9)
     assert kept.height == pytest.approx(alone.height, rel=1e-6 if not field else 1e-4)
 
