@@ -23,6 +23,7 @@ Vectors = NDArray[np.float64]
 
 _ROUNDING = 1e-12
 """Relative to the shape."""
+_LEAST_MASS = 1e-12
 _MOST_ITERATIONS = 12
 _LARGEST_GROWTH = 4.0
 """Of the shape in one solve; beyond it Newton's method has left the neighbourhood."""
@@ -91,7 +92,8 @@ class Balance:
         slopes = self.conditions(point.x)[1]
         free = qr(slopes.T)[0][:, len(slopes) :]
         hessian = free.T @ self.hessian(point.x, point.force) @ free
-        mass = free.T @ self.basis.mass @ free
+        # a piece next to nothing long has next to no mass
+        mass = free.T @ self.basis.mass @ free + _LEAST_MASS * np.eye(free.shape[1])
         values, motions = eigh(hessian, mass, subset_by_index=[0, 0])
         return float(values[0]), free @ motions[:, 0]
 

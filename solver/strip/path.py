@@ -21,6 +21,8 @@ Vectors = NDArray[np.float64]
 _FIRST_STEP = 0.1
 _LONGEST_STEP = 0.25
 _SHORTEST_STEP = 1e-6
+_SHORTEST_BOUND = 1e-3
+"""To which longer steps are held where a path bends sharply."""
 _FEW_ITERATIONS = 6
 _COUPLE_OVER_SHAPE = 3.0
 """Couple that counts for as much as the whole shape; near what snaps a strip."""
@@ -115,7 +117,9 @@ def _next_border(balance: Balance, point: Point, border: Vectors, metric: Vector
     return metric * direction / np.sqrt(direction @ (metric * direction))
 
 
-def steps_along(balance: Balance, start: Point, sign: int) -> Iterator[Step]:
+def steps_along(
+    balance: Balance, start: Point, sign: int, longest: float = _LONGEST_STEP
+) -> Iterator[Step]:
     """Walk along the path from ``start``, the couple at first growing in the sense of ``sign``.
 
     Raises
@@ -127,10 +131,10 @@ def steps_along(balance: Balance, start: Point, sign: int) -> Iterator[Step]:
     metric = _metric(balance, size, len(start.force))
     border = np.zeros(len(metric))
     border[-1] = sign / size
-    point, length = start, _FIRST_STEP
+    point, length = start, min(_FIRST_STEP, longest)
     for _ in range(_MOST_STEPS):
         border = _next_border(balance, point, border, metric)
-        step, length = _shortened(balance, point, border, metric, length)
+        step, length = _shortened(balance, point, border, metric, min(length, longest))
         yield step
         point = step.end
     raise NotConvergedError(
@@ -149,8 +153,7 @@ def _shortened(
             length /= 2
             continue
         easy = end.iterations - point.iterations <= _FEW_ITERATIONS + 1
-        longer = min(_LONGEST_STEP, 1.5 * length) if easy else length
-        return Step(balance, point, border, metric, length, end), longer
+        return Step(balance, point, border, metric, length, end), 1.5 * length if easy else length
     raise NotConvergedError(f"the path could not be followed past {point.couple:g} EI/L")
 
 
@@ -186,23 +189,36 @@ class Branch:
         return None
 
 
-def _told_of_turns(balance: Balance, start: Point, sign: int) -> Iterator[tuple[Step, bool]]:
+def _told_of_turns(
+    balance: Balance, start: Point, sign: int, longest: float = _LONGEST_STEP
+) -> Iterator[tuple[Step, bool]]:
     """Walk along the path, and say of each step whether the couple has a largest value on it."""
     before = None
-    for step in steps_along(balance, start, sign):
+    for step in steps_along(balance, start, sign, longest):
         if before:
             yield before, bool(sign * step.border[-1] <= 0)
         before = step
 
 
-def stable_branch(balance: Balance, state: Point, sign: int, limit: float) -> Branch:
-    """Follow a stable state while the couple grows in the sense of ``sign`` up to ``limit``."""
+def stable_branch(
+    balance: Balance, state: Point, sign: int, limit: float, longest: float = _LONGEST_STEP
+) -> Branch:
+    """Follow a stable state while the couple grows in the sense of ``sign`` up to ``limit``.
+
+    ``longest`` bounds the length of its steps.
+    """
     steps: list[Step] = []
-    for step, back in _told_of_turns(balance, state, sign):
+    for step, back in _told_of_turns(balance, state, sign, longest):
         unstable = balance.lowest_eigenvalue(step.end) < 0
         if unstable or back:
-            # a stable path that turns back has gone over into the other state
-            end = step.turning() if unstable else step.top(sign)
+            try:
+                # a stable path that turns back has gone over into the other state
+                end = step.turning() if unstable else step.top(sign)
+            except NotConvergedError:
+                if longest < _SHORTEST_BOUND:
+                    raise
+                rest = stable_branch(balance, step.start, sign, limit, longest / 4)
+                return replace(rest, steps=(*steps, *rest.steps))
             return Branch((*steps, step.cut(end)), end, merges=not unstable)
         steps.append(step)
         if sign * step.end.couple >= limit:

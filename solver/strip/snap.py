@@ -20,6 +20,8 @@ DEGREE = 24
 """Of the curvature's polynomials on each piece."""
 _LARGEST_TRUNCATION = 1e-4
 """Share of the curvature; the energy's error is of the order of its square."""
+_BEYOND = 1e-6
+"""By which a state must outlast another's critical couple, relative to it."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,8 @@ class Snap:
     before : StripState
         The state at the critical couple, where it ends.
     after : StripState or None
-        The other state at the same couple; None where that is not stable there either.
+        The other state at the same couple, or one between + and − where that is gone as well;
+        None where neither is.
     merges : bool
         Whether the state goes over into one between + and − gently instead of snapping.
     """
@@ -128,6 +131,10 @@ class _Search:
     def pressed(self) -> Branch:
         return stable_branch(self.balance, self.start, -1, self._limit)
 
+    @cached_property
+    def saddles(self) -> tuple[Point, Point]:
+        return saddles(self.balance, self.scene.ends, self.start)
+
     @property
     def _limit(self) -> float:
         return self.scene.largest_couple_N_m / self.scene.energy_unit_J
@@ -153,12 +160,20 @@ class _Search:
         return state
 
 
+def _after(search: _Search, other: Side, couple: float) -> StripState | None:
+    """Where a strip comes to rest that a couple has snapped out of its state."""
+    # where the other state ends at the same couple, by symmetry, neither is there any longer
+    if search.of(other, (1 + _BEYOND) * couple):
+        point = search.of(other, couple)
+        return search.read(point, other) if point else None
+    return _between(search, couple)[1]
+
+
 def _snap(search: _Search, side: Side, branch: Branch, end: Point) -> Snap:
     other = Side.DOWN if side is Side.UP else Side.UP
     before = end if side is Side.UP else mirrored(end)
-    after = None if branch.merges else search.of(other, before.couple)
-    read = search.read(after, other) if after else None
-    return Snap(search.read(before, side), read, branch.merges)
+    after = None if branch.merges else _after(search, other, before.couple)
+    return Snap(search.read(before, side), after, branch.merges)
 
 
 def _snaps(search: _Search, branch: Branch) -> dict[Side, Snap]:
@@ -167,10 +182,9 @@ def _snaps(search: _Search, branch: Branch) -> dict[Side, Snap]:
     return {side: _snap(search, side, branch, branch.end) for side in (Side.UP, Side.DOWN)}
 
 
-def _between(search: _Search) -> tuple[StripState | None, StripState | None]:
-    """Find the lowest unstable shape at the scene's couple, and the lowest that became stable."""
-    starts = saddles(search.balance, search.scene.ends, search.start)
-    found = [carried(search.balance, start, search.couple) for start in starts]
+def _between(search: _Search, couple: float) -> tuple[StripState | None, StripState | None]:
+    """Find the lowest unstable shape at a couple, and the lowest that became stable."""
+    found = [carried(search.balance, start, couple) for start in search.saddles]
     read = [search.read(point, Side.BETWEEN) for point in found if point]
     return (
         _lowest([state for state in read if state.eigenvalue_J < 0]),
@@ -197,7 +211,7 @@ def solve_strip(scene: StripScene) -> Bistable:
     """
     search = _Search(scene)
     unloaded, loaded = _states(search, 0.0), _states(search, search.couple)
-    saddle, merged = _between(search)
+    saddle, merged = _between(search, search.couple)
     return Bistable(
         scene=scene,
         unloaded=unloaded,
