@@ -18,7 +18,7 @@ from solver.strip.state import Side, StripState, strip_state
 
 DEGREE = 24
 """Of the curvature's polynomials on each piece."""
-_LARGEST_TRUNCATION = 1e-4
+_LARGEST_TRUNCATION = 1e-3
 """Share of the curvature; the energy's error is of the order of its square."""
 _BEYOND = 1e-6
 """By which a state must outlast another's critical couple, relative to it."""
@@ -34,7 +34,8 @@ class Snap:
         The state at the critical couple, where it ends.
     after : StripState or None
         The other state at the same couple, or one between + and − where that is gone as well;
-        None where neither is.
+        None where neither is found at a lower energy, as under couples far beyond those at which
+        the other state snaps.
     merges : bool
         Whether the state goes over into one between + and − gently instead of snapping.
     """
@@ -160,20 +161,21 @@ class _Search:
         return state
 
 
-def _after(search: _Search, other: Side, couple: float) -> StripState | None:
+def _after(search: _Search, other: Side, before: StripState, couple: float) -> StripState | None:
     """Where a strip comes to rest that a couple has snapped out of its state."""
     # where the other state ends at the same couple, by symmetry, neither is there any longer
-    if search.of(other, (1 + _BEYOND) * couple):
-        point = search.of(other, couple)
-        return search.read(point, other) if point else None
-    return _between(search, couple)[1]
+    lasts = search.of(other, (1 + _BEYOND) * couple)
+    point = search.of(other, couple) if lasts else None
+    rest = search.read(point, other) if point else _between(search, couple)[1]
+    return rest if rest and rest.energy_J < before.energy_J else None
 
 
 def _snap(search: _Search, side: Side, branch: Branch, end: Point) -> Snap:
     other = Side.DOWN if side is Side.UP else Side.UP
-    before = end if side is Side.UP else mirrored(end)
-    after = None if branch.merges else _after(search, other, before.couple)
-    return Snap(search.read(before, side), after, branch.merges)
+    point = end if side is Side.UP else mirrored(end)
+    before = search.read(point, side)
+    after = None if branch.merges else _after(search, other, before, point.couple)
+    return Snap(before, after, branch.merges)
 
 
 def _snaps(search: _Search, branch: Branch) -> dict[Side, Snap]:
@@ -207,15 +209,22 @@ def solve_strip(scene: StripScene) -> Bistable:
     Raises
     ------
     NotConvergedError
-        When a state cannot be followed.
+        When a state cannot be followed, or none is stable at the scene's couple.
     """
     search = _Search(scene)
     unloaded, loaded = _states(search, 0.0), _states(search, search.couple)
     saddle, merged = _between(search, search.couple)
+    if merged:
+        loaded[Side.BETWEEN] = merged
+    if not loaded:
+        raise NotConvergedError(
+            f"no stable shape was found at a couple of {scene.couple_N_m:g} N m: both states and "
+            "what lies between them end before it; take a smaller couple"
+        )
     return Bistable(
         scene=scene,
         unloaded=unloaded,
-        loaded={**loaded, Side.BETWEEN: merged} if merged else loaded,
+        loaded=loaded,
         saddle=saddle,
         pushed=_snaps(search, search.pushed),
         pressed=_snaps(search, search.pressed),

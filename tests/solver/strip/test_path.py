@@ -115,6 +115,7 @@ def test_states_at_a_couple():
     balance, state = _started(0.2)
     branch = stable_branch(balance, state, 1, 40.0)
     assert branch.at(1.0).couple == pytest.approx(1.0, rel=1e-9)
+    assert branch.at(1.23).couple == pytest.approx(1.23, rel=1e-9)
     assert branch.at(1.0).x == pytest.approx(at_couple(balance, state, 1.0).x, abs=1e-9)
     assert branch.at(1.01 * branch.end.couple) is None
     assert carried(balance, state, 1.01 * branch.end.couple) is None
