@@ -125,3 +125,9 @@ def test_several_circuits_of_ellipses_leave_clear_of_one_another():
                     assert not loop.holds(x, y)
                     near, _ = loop.at_eccentric(np.linspace(0, 2 * pi, 300))
                     assert min(hypot(a - x, b - y) for a, b in near) > TAIL_CLEAR_MM - 1e-3
+
+
+def test_a_cut_line_names_no_corner_twice():
+    circuit = circuit_of(lattice_loops(Lattice.BRICK, 3, 3, 60.0, axis_ratio=2.0))
+    for ring in cut_outline(circuit, WIRE, 2.0, 1.0).rings:
+        assert np.hypot(*(np.roll(ring, -1, axis=0) - ring).T).min() > 1e-6
