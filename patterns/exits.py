@@ -7,12 +7,14 @@ from itertools import product
 from math import pi
 
 import numpy as np
-from shapely import LineString, STRtree, points
+from shapely import LineString, Polygon, STRtree, points
 
 from patterns.errors import PatternError
 from patterns.groups import Group
 from patterns.layout import Layout
-from patterns.path import Vectors, WirePath
+from patterns.loop import Loop
+from patterns.loop_ring import CHORD_MM, ring_around
+from patterns.path import WirePath
 from patterns.tails import Exit, tail_pieces
 from patterns.terminals import DIRECTIONS, FACING_RAD, LEAST_ALIGNMENT, TAIL_CLEAR_MM
 from patterns.wire_index import Indices
@@ -92,7 +94,7 @@ class _Room:
         self._layout = layout
         self._tail_length_mm = tail_length_mm
         self._clear_mm = clear_mm
-        self._radius = np.array([loop.radius_mm for loop in layout.loops])
+        self._longest_mm = max(loop.semi_axes_mm[0] for loop in layout.loops)
         centres = points(np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops]))
         self._tree = STRtree(np.asarray(centres, dtype=np.object_))
         self._tails: list[LineString] = []
@@ -115,14 +117,15 @@ class _Room:
         return [WirePath(pieces).line_string(_CHORD_MM) for pieces in both]
 
     def _clear_of_loops(self, tail: LineString, start: int, own: Indices) -> bool:
-        reach = self._clear_mm + _CHORD_MM + self._radius.max()
+        reach = self._clear_mm + _CHORD_MM + self._longest_mm
         near = self._tree.query(tail, predicate="dwithin", distance=reach)
         near = near[near != start]
         if not near.size:
             return True
-        gap = np.array([tail.distance(point) for point in self._tree.geometries[near]])
+        rings = [Polygon(ring_around(self._layout.loops[k])) for k in near.tolist()]
+        gap = np.array([tail.distance(ring) for ring in rings]) + CHORD_MM
         clear = np.where(np.isin(near, own), TAIL_CLEAR_MM, self._clear_mm)
-        return bool(np.all(gap - self._radius[near] >= clear + _CHORD_MM))
+        return bool(np.all(gap >= clear + _CHORD_MM))
 
 
 def _ways(layout: Layout, group: Group, bend_mm: float, turned_first: bool) -> Iterator[Exit]:
@@ -131,19 +134,19 @@ def _ways(layout: Layout, group: Group, bend_mm: float, turned_first: bool) -> I
     alignment = np.round(np.cos(angle - FACING_RAD[group.side]), 9)
     least = _ANY_ALIGNMENT if group.anywhere else LEAST_ALIGNMENT
     order = [k for k in np.argsort(-alignment, kind="stable") if alignment[k] >= least]
-    rows = [(one.x_mm, one.y_mm, one.radius_mm) for one in (layout.loops[k] for k in group.loops)]
-    place = np.array(rows)
+    own = [layout.loops[k] for k in group.loops]
     on_side = [k for k in order if alignment[k] >= LEAST_ALIGNMENT]
     elsewhere = order[len(on_side) :]
     for directions in (on_side, elsewhere):
         for bend in (bend_mm, None) if turned_first else (None, bend_mm):
             for k in directions:
-                yield from _outermost(group, place, float(angle[k]), bend)
+                yield from _outermost(group, own, float(angle[k]), bend)
 
 
 def _outermost(
-    group: Group, place: Vectors, angle_rad: float, bend_mm: float | None
+    group: Group, own: list[Loop], angle_rad: float, bend_mm: float | None
 ) -> Iterator[Exit]:
-    reach = place[:, :2] @ np.array([np.cos(angle_rad), np.sin(angle_rad)]) + place[:, 2]
+    x, y, out = np.array([(one.x_mm, one.y_mm, one.reach_mm(angle_rad)) for one in own]).T
+    reach = x * np.cos(angle_rad) + y * np.sin(angle_rad) + out
     for loop in np.flatnonzero(reach > reach.max() - _SAME_MM):
         yield Exit(group.loops[int(loop)], angle_rad, bend_mm)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from patterns.layout import Layout, Loop, tangent_layout
+from patterns.layout import Layout, tangent_layout
+from patterns.loop import Loop
 
 
 def square_grid(rows: int, columns: int, loop_diameter_mm: float) -> Layout:

@@ -10,40 +10,19 @@ import shapely
 from numpy.typing import NDArray
 
 from patterns.errors import PatternError
+from patterns.loop import Loop
+from patterns.loop_gap import LoopGaps
 
-Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 TANGENCY_TOLERANCE_MM = 1e-6
-"""Two loops touch when the distance of their centres is the sum of their radii to within this."""
+"""Two loops touch when they are apart, or overlap, by no more than this."""
 
 ROUNDED_MM = 9e-4
-"""The same for circles given with three or four decimals; the wire's joints stay as small."""
+"""The same for loops given with three or four decimals; the wire's joints stay as small."""
 
 NEARLY_MM = 1.0
 """Loops nearer than this that do not touch are a mistake: wires so near may short or chafe."""
-
-
-@dataclass(frozen=True, slots=True)
-class Loop:
-    """One circle of wire, in the stretched plane.
-
-    Attributes
-    ----------
-    x_mm, y_mm : float
-        Centre; y points away from the operator.
-    diameter_mm : float
-        Diameter of the wire's centreline.
-    """
-
-    x_mm: float
-    y_mm: float
-    diameter_mm: float
-
-    @property
-    def radius_mm(self) -> float:
-        """Radius of the wire's centreline."""
-        return self.diameter_mm / 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,26 +63,21 @@ def tangent_layout(loops: tuple[Loop, ...], tolerance_mm: float = TANGENCY_TOLER
     Raises
     ------
     PatternError
-        When two loops overlap; the message names the pair and the distance of their centres.
+        When two loops overlap; the message names the pair, the distance of their centres and by how
+        much they overlap.
     """
-    centre = np.array([(loop.x_mm, loop.y_mm) for loop in loops]).reshape(-1, 2)
-    radius = np.array([loop.radius_mm for loop in loops])
-    i, j, gap = _neighbours(centre, radius, tolerance_mm)
-    distance = np.hypot(*(centre[j] - centre[i]).T)
+    gaps = LoopGaps(loops)
+    i, j = _neighbours(loops, tolerance_mm)
+    gap, point = gaps.of(i, j)
     if np.any(gap < -tolerance_mm):
         k = int(np.argmin(gap))
-        raise PatternError(
-            f"loops {i[k]} and {j[k]} overlap: their centres are {distance[k]:.6g} mm apart, "
-            f"and their radii add up to {radius[i[k]] + radius[j[k]]:.6g} mm"
-        )
+        raise PatternError(_overlap_text(loops, int(i[k]), int(j[k]), -float(gap[k])))
     near = gap <= tolerance_mm
-    i, j = i[near], j[near]
-    point = centre[i] + (centre[j] - centre[i]) * (radius[i] / (radius[i] + radius[j]))[:, None]
     return Layout(
         loops,
         tuple(
             Contact(int(a), int(b), float(x), float(y))
-            for a, b, (x, y) in zip(i, j, point, strict=True)
+            for a, b, (x, y) in zip(i[near], j[near], point[near], strict=True)
         ),
     )
 
@@ -135,27 +109,30 @@ def check_spaced(layout: Layout) -> None:
     PatternError
         The message names the pair of loops and how far apart they are.
     """
-    centre = np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops]).reshape(-1, 2)
-    radius = np.array([loop.radius_mm for loop in layout.loops])
     touching = {(contact.first, contact.second) for contact in layout.contacts}
-    for i, j, gap in zip(*_neighbours(centre, radius, NEARLY_MM), strict=True):
-        if gap < NEARLY_MM and (i, j) not in touching:
+    i, j = _neighbours(layout.loops, NEARLY_MM)
+    gaps, _ = LoopGaps(layout.loops).of(i, j)
+    for first, second, gap in zip(i.tolist(), j.tolist(), gaps.tolist(), strict=True):
+        if gap < NEARLY_MM and (first, second) not in touching:
             raise PatternError(
-                f"loops {_named(layout.loops, i)} and {_named(layout.loops, j)} do not touch, but "
-                f"are only {gap:.4f} mm apart: let them touch, or move them at least "
+                f"loops {_named(layout.loops, first)} and {_named(layout.loops, second)} do not "
+                f"touch, but are only {gap:.4f} mm apart: let them touch, or move them at least "
                 f"{NEARLY_MM:g} mm apart"
             )
 
 
 def nearest_pair_text(loops: tuple[Loop, ...], some: list[int], others: list[int]) -> str:
     """Say which pair of some and other loops is nearest, and how far apart it is."""
-    x, y, radius = np.array([(loops[n].x_mm, loops[n].y_mm, loops[n].radius_mm) for n in some]).T
+    gaps = LoopGaps(loops)
     best, near, far = np.inf, 0, 0
     for k in others:
-        gap = np.hypot(x - loops[k].x_mm, y - loops[k].y_mm) - radius - loops[k].radius_mm
-        if gap.min() < best:
-            best, near, far = float(gap.min()), some[int(np.argmin(gap))], k
-    return f"the nearest pair, {near} and {far}, is {max(best, 0.0):.3f} mm apart"
+        beyond = np.full(len(some), k)
+        nearer = np.flatnonzero(gaps.at_least_mm(np.array(some), beyond) < best)
+        gap, _ = gaps.of(np.array(some)[nearer], beyond[nearer])
+        if gap.min(initial=np.inf) < best:
+            best, near, far = float(gap.min()), some[int(nearer[np.argmin(gap)])], k
+    places = f"{loops[near].place} and {loops[far].place}"
+    return f"the nearest pair, {near} and {far}, is {max(best, 0.0):.3f} mm apart ({places})"
 
 
 def _reached(layout: Layout) -> set[int]:
@@ -166,16 +143,24 @@ def _reached(layout: Layout) -> set[int]:
     return set(nx.node_connected_component(graph, 0)) if layout.loops else set()
 
 
+def _overlap_text(loops: tuple[Loop, ...], first: int, second: int, by_mm: float) -> str:
+    one, other = loops[first], loops[second]
+    distance = np.hypot(other.x_mm - one.x_mm, other.y_mm - one.y_mm)
+    return (
+        f"loops {first} and {second} overlap: their centres, {one.place} and {other.place}, are "
+        f"{distance:.6g} mm apart; move one by at least {by_mm:.6g} mm"
+    )
+
+
 def _named(loops: tuple[Loop, ...], k: int) -> str:
-    return f"{k} at ({loops[k].x_mm:g}, {loops[k].y_mm:g}) mm"
+    return f"{k} {loops[k].place}"
 
 
-def _neighbours(centre: Floats, radius: Floats, reach_mm: float) -> tuple[Indices, Indices, Floats]:
-    """Pairs of loops (first < second, in order) that may be as near as a reach, and their gaps."""
-    half = (radius + reach_mm)[:, None]
-    boxes = shapely.box(*(centre - half).T, *(centre + half).T)
+def _neighbours(loops: tuple[Loop, ...], reach_mm: float) -> tuple[Indices, Indices]:
+    """Pairs of loops (first < second, in order) that may be as near as a reach."""
+    corners = np.array([loop.box_mm() for loop in loops]).reshape(-1, 4)
+    boxes = shapely.box(*(corners + reach_mm * np.array([-1, -1, 1, 1])).T)
     i, j = shapely.STRtree(boxes).query(boxes)
     i, j = i[i < j], j[i < j]
     order = np.lexsort((j, i))
-    i, j = i[order], j[order]
-    return i, j, np.hypot(*(centre[j] - centre[i]).T) - radius[i] - radius[j]
+    return i[order], j[order]

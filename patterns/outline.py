@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from shapely import (
     LineString,
     MultiPolygon,
-    Point,
     Polygon,
     STRtree,
     get_parts,
@@ -23,18 +21,16 @@ from patterns.circuit import Circuit, Diameters
 from patterns.edge_clearance import edge_clearance_mm
 from patterns.errors import PatternError
 from patterns.layout import Layout
+from patterns.loop_ring import CHORD_MM, Ring, quarter_steps, ring_around
 from patterns.path import Line, Piece, WirePath
 from patterns.wire_index import WireIndex
 
 CHORD_TOLERANCE_MM = 0.01
 """Largest distance between the cut line and the arcs that it stands for."""
 
-_CHORD_MM = 0.002
 _FIRST_EXCESS_MM = 0.003
 _FACE_TOLERANCE_MM = 1e-3
-
-Ring = NDArray[np.float64]
-"""A closed line, shape (n, 2) in mm; the first point is not repeated at the end."""
+_SAME_MM = 1e-6
 
 
 @dataclass(frozen=True)
@@ -137,33 +133,22 @@ def _check_quantities(wire_diameter_mm: float, margin_mm: float, corner_radius_m
 
 
 def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> list[Polygon]:
-    """Grow discs and tails by clearance and corner radius, and shrink by the corner radius.
+    """Grow loops and tails by clearance and corner radius, and shrink by the corner radius.
 
     The result holds everything within the clearance, and its inner corners are round.
     """
     grown = clearance_mm + corner_radius_mm
     parts = [
-        _disc(loop.x_mm, loop.y_mm, loop.radius_mm + grown) for loop in circuit.layout.loops
-    ] + [_grown(piece, grown) for piece in _tail_pieces(circuit)]
+        *(Polygon(ring_around(loop, grown)) for loop in circuit.layout.loops),
+        *(_grown(piece, grown) for piece in _tail_pieces(circuit)),
+    ]
     fabric: BaseGeometry = union_all(parts)
     if corner_radius_mm > 0:
-        fabric = fabric.buffer(-corner_radius_mm, quad_segs=_quarter_steps(corner_radius_mm))
+        fabric = fabric.buffer(-corner_radius_mm, quad_segs=quarter_steps(corner_radius_mm))
     pieces = [piece for piece in get_parts(fabric).tolist() if not piece.is_empty]
     if not 0 < len(pieces) <= len(circuit.parts):
         raise PatternError("the fabric falls apart: the wire does not hold all loops together")
     return sorted(pieces, key=lambda piece: piece.bounds)
-
-
-def _quarter_steps(radius_mm: float) -> int:
-    """Chords in a quarter of a circle that stay within a fraction of the chord tolerance."""
-    half_turn = np.arccos(max(0.0, 1 - _CHORD_MM / radius_mm))
-    return max(2, int(np.ceil(np.pi / 4 / half_turn)))
-
-
-def _disc(x_mm: float, y_mm: float, radius_mm: float) -> BaseGeometry:
-    """Polygon around a circle: its sides touch the circle, so it holds all of it."""
-    steps = _quarter_steps(radius_mm)
-    return Point(x_mm, y_mm).buffer(radius_mm / np.cos(np.pi / 4 / steps), quad_segs=steps)
 
 
 def _tail_pieces(circuit: Circuit) -> list[Piece]:
@@ -175,9 +160,9 @@ def _grown(piece: Piece, clearance_mm: float) -> BaseGeometry:
     if isinstance(piece, Line):
         centreline = LineString([(piece.x0_mm, piece.y0_mm), (piece.x1_mm, piece.y1_mm)])
     else:
-        centreline = WirePath((piece,)).line_string(_CHORD_MM)
-        clearance_mm += _CHORD_MM
-    steps = _quarter_steps(clearance_mm)
+        centreline = WirePath((piece,)).line_string(CHORD_MM)
+        clearance_mm += CHORD_MM
+    steps = quarter_steps(clearance_mm)
     return centreline.buffer(clearance_mm / np.cos(np.pi / 4 / steps), quad_segs=steps)
 
 
@@ -194,7 +179,8 @@ def _outline(fabric: list[Polygon]) -> Outline:
 
 
 def _turned(ring: Ring, sense: int) -> Ring:
-    """Give the ring counter-clockwise (1) or clockwise (-1)."""
+    """Give the ring counter-clockwise (1) or clockwise (-1), every corner once."""
+    ring = ring[np.hypot(*(np.roll(ring, -1, axis=0) - ring).T) > _SAME_MM]
     x, y = ring.T
     area = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
     return ring if area * sense > 0 else ring[::-1].copy()
@@ -225,18 +211,18 @@ def _check_openings(
 
 
 def _faces(layout: Layout) -> list[BaseGeometry]:
-    """Polygons between the centres of loops that touch in a round."""
-    loops = layout.loops
+    """Polygons between the centres of loops that touch in a round, by way of the contacts."""
+    places = [(loop.x_mm, loop.y_mm) for loop in layout.loops]
     links = [
-        LineString([(loops[k].x_mm, loops[k].y_mm) for k in (contact.first, contact.second)])
-        for contact in layout.contacts
+        LineString([places[one.first], (one.x_mm, one.y_mm), places[one.second]])
+        for one in layout.contacts
     ]
     return list(get_parts(polygonize(links)))
 
 
 def _room_mm(layout: Layout, face: BaseGeometry) -> float:
     """Radius of the largest circle in a face that stays outside the loops."""
-    discs = [_disc(loop.x_mm, loop.y_mm, loop.radius_mm) for loop in layout.loops]
+    discs = [Polygon(ring_around(loop)) for loop in layout.loops]
     near = STRtree(discs).query(face)
     gap = face.difference(union_all([discs[k] for k in near]))
     return max(maximum_inscribed_circle(part, _FACE_TOLERANCE_MM).length for part in get_parts(gap))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import ceil, floor, pi
+from math import ceil, floor
 
 import numpy as np
 
@@ -68,7 +68,7 @@ def parallel_groups(layout: Layout, limits: Limits) -> tuple[Group, ...]:
 
 
 def _divided(layout: Layout, piece: Loops, limits: Limits, most: int) -> tuple[Loops, ...]:
-    whole = sum(_around_mm(layout, (loop,)) for loop in piece)
+    whole = _around_mm(layout, piece)
     room = limits.longest_mm - 2 * limits.tail_length_mm
     least = ceil(whole / room * (1 - _ROUND_OFF)) if room > 0 else len(piece) + 1
     for count in range(max(least, 1), min(most, len(piece)) + 1):
@@ -95,7 +95,7 @@ def _groups(circuits: tuple[Loops, ...], limits: Limits) -> tuple[Group, ...]:
 
 
 def _around_mm(layout: Layout, loops: Loops) -> float:
-    return 2 * pi * sum(layout.loops[k].radius_mm for k in loops)
+    return sum(layout.loops[k].around_mm for k in loops)
 
 
 def _longest_mm(layout: Layout, circuits: tuple[Loops, ...], limits: Limits) -> float:

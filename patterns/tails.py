@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, pi, sin
 
-from patterns.layout import Loop
+from patterns.loop import Loop
 from patterns.path import Arc, Line, Piece
 
 
@@ -18,7 +18,7 @@ class Exit:
     loop : int
         The loop.
     angle_rad : float
-        Place on the loop, from its centre.
+        Place on the loop: the direction of its outward normal there.
     bend_mm : float or None
         Radius with which both tails turn away from the loop, by a right angle; none when they stay
         on the tangent.
@@ -43,7 +43,7 @@ def tail_pieces(
     """
     outward = (cos(angle_rad), sin(angle_rad))
     along = (outward[1], -outward[0])
-    point = (loop.x_mm + loop.radius_mm * outward[0], loop.y_mm + loop.radius_mm * outward[1])
+    point = loop.point_mm(angle_rad)
     if bend_mm is None:
         before, after = _moved(point, along, -length_mm), _moved(point, along, length_mm)
         return (Line(*before, *point),), (Line(*point, *after),)

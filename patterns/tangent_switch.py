@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import accumulate, groupby, pairwise
+from itertools import accumulate, chain, groupby, pairwise
 from math import pi, tau
 
 import networkx as nx
@@ -14,6 +14,7 @@ from patterns.circuit import Circuit, Crossing, CrossingKind
 from patterns.errors import PatternError
 from patterns.grid import serpentine, square_grid
 from patterns.layout import Layout, nearest_pair_text
+from patterns.loop_arcs import loop_arcs
 from patterns.path import Arc, Piece, Vectors, WirePath
 from patterns.splits import Passes, split_points_mm
 from patterns.tails import tail_pieces
@@ -58,8 +59,8 @@ def single_circuit(
 ) -> Circuit:
     """Run one wire through every loop, with a straight tail at each end.
 
-    Two circles that touch from outside run smoothly into one another when one is traversed
-    clockwise and the other counter-clockwise. Changing circle in each contact of a spanning tree
+    Two loops that touch from outside run smoothly into one another when one is traversed clockwise
+    and the other counter-clockwise. Changing loop in each contact of a spanning tree
     makes one closed curve that goes once around every loop. It is cut at the start point, and
     split into the fewest stages that pass no contact twice.
 
@@ -68,7 +69,7 @@ def single_circuit(
     switches
         Contacts (indices into ``layout.contacts``) in which the wire changes loop: a spanning tree.
     start_loop, start_rad
-        Loop and angle of the terminals; the wire sets out clockwise.
+        Loop, and direction of its outward normal, at the terminals; the wire sets out clockwise.
     tail_length_mm
         Length of the straight part of each tail.
     bend_mm
@@ -85,10 +86,11 @@ def single_circuit(
     graph = touching(layout)
     check_start(graph, start_loop, start_rad)
     steps = tuple(_walk(graph, frozenset(switches), start_loop, start_rad))
-    ends = [*accumulate(layout.loops[s.loop].radius_mm * abs(s.sweep_rad) for s in steps)]
+    ways = [loop_arcs(layout.loops[s.loop], s.start_rad, s.sweep_rad) for s in steps]
+    ends = [*accumulate(sum(arc.length_mm for arc in way) for way in ways)]
     passes = _passes(steps, ends)
     comes, goes = tail_pieces(layout.loops[start_loop], start_rad, tail_length_mm, bend_mm)
-    stages = _stages(_arcs(layout, steps), split_points_mm(passes, ends[-1]))
+    stages = _stages(_merged(chain.from_iterable(ways)), split_points_mm(passes, ends[-1]))
     stages[0][:0] = comes
     stages[-1].extend(goes)
     point, _ = goes[0].at(np.zeros(1))
@@ -159,12 +161,11 @@ def _passes(steps: tuple[_Step, ...], ends: list[float]) -> list[tuple[float, fl
     return [(found[k][0], found[k][1]) for k in sorted(found)]
 
 
-def _arcs(layout: Layout, steps: tuple[_Step, ...]) -> Iterator[Arc]:
-    """One arc for every stretch on one loop."""
-    for n, own in groupby(steps, key=lambda step: step.loop):
-        stretch, loop = [*own], layout.loops[n]
-        sweep = sum(step.sweep_rad for step in stretch)
-        yield Arc(loop.x_mm, loop.y_mm, loop.radius_mm, stretch[0].start_rad, sweep)
+def _merged(arcs: Iterable[Arc]) -> Iterator[Arc]:
+    """One arc for every stretch on one circle."""
+    for circle, own in groupby(arcs, key=_circle):
+        stretch = [*own]
+        yield Arc(*circle, stretch[0].start_rad, sum(arc.sweep_rad for arc in stretch))
 
 
 def _stages(arcs: Iterable[Arc], splits_mm: Sequence[float]) -> list[list[Piece]]:
@@ -186,9 +187,13 @@ def _stages(arcs: Iterable[Arc], splits_mm: Sequence[float]) -> list[list[Piece]
 
 def _cut(arc: Arc, part: float) -> tuple[Arc, Arc]:
     """Cut an arc at a part (0 to 1) of its length."""
-    circle = (arc.centre_x_mm, arc.centre_y_mm, arc.radius_mm)
+    circle = _circle(arc)
     sweep = arc.sweep_rad * part
     return (
         Arc(*circle, arc.start_rad, sweep),
         Arc(*circle, arc.start_rad + sweep, arc.sweep_rad - sweep),
     )
+
+
+def _circle(arc: Arc) -> tuple[float, float, float]:
+    return arc.centre_x_mm, arc.centre_y_mm, arc.radius_mm

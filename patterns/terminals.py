@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 
 from patterns.errors import PatternError
-from patterns.layout import Loop
+from patterns.loop import Loop
 
 TAIL_CLEAR_MM = 2.0
 """Least distance of the tails from all other loops: room for the stitches of both wires."""
@@ -38,7 +38,7 @@ FACING_RAD = {
 
 
 def terminals(loops: tuple[Loop, ...], side: Side) -> tuple[int, float]:
-    """Choose loop and angle of the terminals.
+    """Choose loop and angle of the terminals: there its outward normal has that direction.
 
     Both tails lie on the tangent there. It must be clear of all other loops at any length, so the
     loop is an outermost one; of such places that is taken which faces the side best.
@@ -51,11 +51,11 @@ def terminals(loops: tuple[Loop, ...], side: Side) -> tuple[int, float]:
     angle = pi * np.arange(DIRECTIONS) / (DIRECTIONS / 2)
     facing = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     alignment = np.round(np.cos(angle - FACING_RAD[side]), 9)
-    place = np.array([(loop.x_mm, loop.y_mm, loop.radius_mm) for loop in loops])
+    centre = np.array([(loop.x_mm, loop.y_mm) for loop in loops])
     for k in np.argsort(-alignment, kind="stable"):
         if alignment[k] < LEAST_ALIGNMENT:
             break
-        reach = place[:, :2] @ facing[k] + place[:, 2]
+        reach = centre @ facing[k] + [loop.reach_mm(float(angle[k])) for loop in loops]
         outermost = int(np.argmax(reach))
         others = np.delete(reach, outermost)
         if reach[outermost] - others.max(initial=-np.inf) >= TAIL_CLEAR_MM:

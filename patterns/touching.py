@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from math import atan2, pi, tau
+from math import hypot, tau
 
 from patterns.errors import PatternError
-from patterns.layout import Contact, Layout, Loop
+from patterns.layout import Layout
 
 CLOCKWISE = -1
 
@@ -23,7 +23,8 @@ class Touching:
     ----------
     layout : Layout
     angle_rad : tuple of dict
-        For each loop the angle (0 to 2 pi) of each of its contacts, in rising order.
+        For each loop the direction (0 to 2 pi) of its outward normal in each of its contacts, in
+        rising order.
     left, right : tuple of dict
         For each loop the contact that follows each contact counter-clockwise, and clockwise.
     beyond : tuple of dict
@@ -74,7 +75,7 @@ def touching(layout: Layout) -> Touching:
             (contact.first, contact.second),
             (contact.second, contact.first),
         ):
-            angle[here][k] = _angle_rad(layout.loops[here], contact)
+            angle[here][k] = layout.loops[here].normal_rad(contact.x_mm, contact.y_mm)
             beyond[here][k] = there
     ordered = tuple(dict(sorted(own.items(), key=lambda item: item[1])) for own in angle)
     left = tuple(_following(list(own)) for own in ordered)
@@ -84,17 +85,14 @@ def touching(layout: Layout) -> Touching:
 
 def check_start(graph: Touching, loop: int, start_rad: float) -> None:
     """Refuse a start point on a contact."""
-    radius = graph.layout.loops[loop].radius_mm
-    for contact, angle in graph.angle_rad[loop].items():
-        if abs((angle - start_rad + pi) % tau - pi) * radius < SAME_POINT_MM:
+    x, y = graph.layout.loops[loop].point_mm(start_rad)
+    for contact in graph.angle_rad[loop]:
+        place = graph.layout.contacts[contact]
+        if hypot(place.x_mm - x, place.y_mm - y) < SAME_POINT_MM:
             raise PatternError(
                 f"the start point on loop {loop} is the contact {contact}: "
                 f"the tails would cross another loop there; choose another angle"
             )
-
-
-def _angle_rad(loop: Loop, contact: Contact) -> float:
-    return atan2(contact.y_mm - loop.y_mm, contact.x_mm - loop.x_mm) % tau
 
 
 def _following(ring: list[int]) -> dict[int, int]:

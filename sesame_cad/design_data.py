@@ -146,6 +146,7 @@ def circuit_data(spec: Specification, laid: Pattern) -> Data:
         "loops": len(circuit.layout.loops),
         "stages": len(circuit.stages),
         "smallest_bend_radius_mm": circuit.smallest_radius_mm,
+        "largest_curvature_per_mm": 1 / circuit.smallest_radius_mm,
         "tail_length_mm": spec.stitching.tail_length_mm,
     }
 

@@ -51,7 +51,6 @@ def solid_faults(content: bytes, size_mm: Size) -> Iterator[str]:
 
 def _laid_size_mm(layout: Layout) -> tuple[float, float]:
     """Width and depth over the outer wires' centrelines in the hoop."""
-    place = np.array([(loop.x_mm, loop.y_mm, loop.radius_mm) for loop in layout.loops])
-    centre, radius = place[:, :2], place[:, 2:]
-    width, depth = (centre + radius).max(axis=0) - (centre - radius).min(axis=0)
+    box = np.array([loop.box_mm() for loop in layout.loops])
+    width, depth = box[:, 2:].max(axis=0) - box[:, :2].min(axis=0)
     return float(width), float(depth)

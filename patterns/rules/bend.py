@@ -10,6 +10,7 @@ from patterns.violation import Violation
 
 _LARGEST_GAP_MM = 1e-3
 _LARGEST_KINK = 1e-3
+_ROUND_OFF = 1e-6
 
 
 def check_bend_radius(subject: Subject) -> list[Violation]:
@@ -18,7 +19,7 @@ def check_bend_radius(subject: Subject) -> list[Violation]:
     faults: list[Violation] = []
     for piece, stage in zip(subject.circuit.wire.pieces, subject.stage_of_piece, strict=True):
         allowed = subject.stitching.smallest_bend_diameters * subject.diameters_mm[stage]
-        if abs(piece.curvature_per_mm) * allowed > 1 + 1e-9:
+        if abs(piece.curvature_per_mm) * allowed > 1 + _ROUND_OFF:
             middle, _ = piece.at(np.array([piece.length_mm / 2]))
             radius = 1 / abs(piece.curvature_per_mm)
             x, y = (float(value) for value in middle[0])

@@ -17,7 +17,8 @@ from shapely import distance as distance_between
 
 from patterns.circuit import Circuit, Diameters
 from patterns.edge_clearance import edge_clearance_mm
-from patterns.outline import Outline, Ring
+from patterns.loop_ring import Ring
+from patterns.outline import Outline
 from patterns.path import Vectors
 from patterns.plan import UNITS_PER_MM, BlockKind, StitchPlan
 from patterns.violation import Violation

@@ -16,7 +16,8 @@ from ezdxf.lldxf.const import DXFError
 from ezdxf.units import MM
 from numpy.typing import NDArray
 
-from patterns.outline import Outline, Ring
+from patterns.loop_ring import Ring
+from patterns.outline import Outline
 from patterns.registration import Mark
 from sesame_cad.errors import DesignFileError
 from sesame_cad.files.sheet import lay_out

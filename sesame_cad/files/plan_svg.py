@@ -124,7 +124,7 @@ def _add_labels(root: ElementTree.Element, sheet: Sheet, circuit: Circuit) -> No
     loops = circuit.layout.loops
     group = add_layer(root, "LABELS", _LABEL)
     for order, k in enumerate(loops_in_order(circuit), start=1):
-        size = min(8.0, loops[k].diameter_mm / 5)
+        size = min(8.0, loops[k].width_mm / 5)
         style = f"font-size:{number(size)}px;fill:#333333"
         (place,) = sheet.on_page(np.array([[loops[k].x_mm, loops[k].y_mm]]))
         add_text(group, str(order), (float(place[0]), float(place[1]) + size / 3), style)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from patterns.outline import Outline, Ring
+from patterns.loop_ring import Ring
+from patterns.outline import Outline
 from patterns.registration import Mark
 
 CHECK_BAR_MM = 100.0

@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from patterns.outline import Outline, Ring
+from patterns.loop_ring import Ring
+from patterns.outline import Outline
 from patterns.registration import Mark
 from sesame_cad.errors import DesignFileError
 from sesame_cad.files.sheet import Sheet, lay_out

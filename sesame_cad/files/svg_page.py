@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree import ElementTree
 
-from patterns.outline import Ring
+from patterns.loop_ring import Ring
 from sesame_cad.files.sheet import CHECK_BAR_MM, Sheet
 
 SVG = "http://www.w3.org/2000/svg"

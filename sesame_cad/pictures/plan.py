@@ -67,7 +67,7 @@ def _figure_size(outline: Outline, marks: tuple[Mark, ...]) -> tuple[float, floa
 
 
 def _arrow_mm(circuit: Circuit, outline: Outline) -> float:
-    loop_mm = min(loop.diameter_mm for loop in circuit.layout.loops)
+    loop_mm = min(loop.width_mm for loop in circuit.layout.loops)
     return min(
         _ARROW_SHARE * (outline.bounds_mm[2] - outline.bounds_mm[0]), _LARGEST_ARROW * loop_mm
     )
@@ -114,8 +114,10 @@ def _draw_wire(axes: Axes, path: WirePath, colour: str, label: str, arrow_mm: fl
 
 
 def _arrow_heads(path: WirePath, length_mm: float) -> Vectors:
-    """Triangles (n, 3, 2), one in the middle of every piece."""
+    """Triangles (n, 3, 2), one in the middle of every stretch that bends one way."""
     ends = np.cumsum([piece.length_mm for piece in path.pieces])
+    sense = np.sign([piece.curvature_per_mm for piece in path.pieces])
+    ends = ends[np.append(sense[1:] != sense[:-1], True)]
     lengths = np.diff(ends, prepend=0)
     point, along = path.at((ends - lengths / 2)[lengths > 2 * length_mm])
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)

@@ -79,34 +79,40 @@ def needed_hoop_mm(
     start, angle = terminals(loops, layout.side)
     rim = wire.diameter_mm / 2 + outline.margin_mm
     around = rim + stitching.mark_gap_mm + stitching.mark_size_mm + APPROACH_MM
-    radius, tail = loops[start].radius_mm, stitching.tail_length_mm
+    left, bottom, right, top = zip(*(loop.box_mm() for loop in loops), strict=True)
+    x, y = loops[start].point_mm(angle)
+    tail = stitching.tail_length_mm
 
-    def whole(centres: list[float], out: float, along: float) -> float:
-        beyond = [abs(at) + loop.radius_mm for at, loop in zip(centres, loops, strict=True)]
-        terminal = abs(centres[start] + radius * out) + abs(tail * along)
-        return 2 * (max(*beyond, terminal) + around)
+    def whole(low: float, high: float, terminal: float, along: float) -> float:
+        return 2 * (max(-low, high, abs(terminal) + abs(tail * along)) + around)
 
-    cosine, sine = cos(angle), sin(angle)
     return (
-        whole([loop.x_mm for loop in loops], cosine, sine),
-        whole([loop.y_mm for loop in loops], sine, cosine),
+        whole(min(left), max(right), x, sin(angle)),
+        whole(min(bottom), max(top), y, cos(angle)),
     )
 
 
 def _missing_keys(sections: Together) -> Iterator[Fault]:
     layout = sections.layout
-    needed = {"row": (_COLUMNS, _LOOP), "circles": (_CIRCLES,)}.get(
-        layout.kind, (_ROWS, _COLUMNS, _LOOP)
-    )
+    row = (_DIAMETERS,) if layout.diameters_mm else (_COLUMNS, _LOOP)
+    needed = {"row": row, "circles": (_CIRCLES,)}.get(layout.kind, (_ROWS, _COLUMNS, _LOOP))
     for keys in _ARRANGING:
         given = getattr(layout, keys[1])
         what = LayoutSection.model_fields[keys[1]].description
         if keys in needed and not given:
             yield Fault(keys, f"missing; give {what}")
         elif keys not in needed and given and not (keys == _ROWS and given == 1):
-            problem = f'must be left out for layout.kind = "{layout.kind}"'
+            problem = f"must be left out {_beside(layout, keys)}"
             shown = number_text(given) if isinstance(given, (int, float)) else None
             yield Fault(keys, problem, shown)
+
+
+def _beside(layout: LayoutSection, keys: tuple[str, str]) -> str:
+    """Say why a key that arranges loops has no place."""
+    kind = f'for layout.kind = "{layout.kind}"'
+    if keys == _DIAMETERS and layout.kind != "circles":
+        return f'{kind}, whose loops touch only when they are equal; choose "row" or "circles"'
+    return "when layout.diameters_mm is given" if layout.diameters_mm else kind
 
 
 def _missing_cells(sections: Together) -> Iterator[Fault]:
@@ -124,12 +130,18 @@ def _missing_cells(sections: Together) -> Iterator[Fault]:
 
 def _no_shape(sections: Together) -> Iterator[Fault]:
     layout = sections.layout
-    # A grid with missing cells still tiles: every contact that is left is as before, between two
-    # equal saddles on a crest or in a valley of both, and a free edge asks for nothing.
-    if layout.shape == "cell" and layout.kind not in TILING:
+    if layout.shape == "cell" and not layout.tiles:
+        what = f'layout.kind = "{layout.kind}"'
+        if layout.kind in TILING:
+            oval = layout.axis_ratio != 1
+            what = (
+                f"{_RATIO_NAME} = {number_text(layout.axis_ratio)}"
+                if oval
+                else "a row of unequal loops"
+            )
         yield Fault(
             _SHAPE,
-            f'must be "none" for layout.kind = "{layout.kind}": its loops do not fit together each '
+            f'must be "none" for {what}: its loops do not fit together each '
             "in the shape that it takes alone, and the shape of the array needs the coupled array "
             'solve, not available yet; with "none" there are stitch and cut files only',
             '"cell"',
@@ -138,7 +150,7 @@ def _no_shape(sections: Together) -> Iterator[Fault]:
 
 def _thick_wire(sections: Together) -> Iterator[Fault]:
     diameter = sections.wire.diameter_mm
-    loop = min(sections.layout.diameters_mm, default=None)
+    loop = min(sections.layout.known_diameters_mm, default=None)
     if loop is not None and diameter >= loop:
         limit = f"must be less than {_loop_name(sections.layout)} = {number_text(loop)}"
         yield Fault(_DIAMETER, limit, number_text(diameter))
@@ -147,28 +159,46 @@ def _thick_wire(sections: Together) -> Iterator[Fault]:
 def _sharp_bend(sections: Together) -> Iterator[Fault]:
     diameter = sections.wire.diameter_mm
     limit = sections.stitching.smallest_bend_diameters
-    smallest = 2 * limit * diameter
-    keys = _CIRCLES if sections.layout.kind == "circles" else _LOOP
-    for loop in sections.layout.diameters_mm:
-        if diameter < loop < smallest * (1 - ROUNDING):
+    for loop in sections.layout.kinds_of_loops():
+        smallest = loop.diameter_mm * limit * diameter / loop.smallest_radius_mm
+        if diameter < loop.diameter_mm < smallest * (1 - ROUNDING):
+            oval = f" with an axis ratio of {loop.axis_ratio:g}" if loop.axis_ratio != 1 else ""
             yield Fault(
-                keys,
-                f"must be at least {smallest:.6g}: a smaller loop bends wire of "
+                _sizes(sections.layout),
+                f"must be at least {smallest:.6g}: a smaller loop{oval} bends wire of "
                 f"{number_text(diameter)} mm to a radius below "
                 f"stitching.smallest_bend_diameters = {number_text(limit)} times its diameter",
-                number_text(loop),
+                number_text(loop.diameter_mm),
             )
 
 
+def _sizes(layout: LayoutSection) -> tuple[str, str]:
+    """Key with the sizes of the loops."""
+    if layout.kind == "circles":
+        return _CIRCLES
+    return _DIAMETERS if layout.diameters_mm else _LOOP
+
+
 def _loop_name(layout: LayoutSection) -> str:
-    return "a diameter in layout.circles" if layout.kind == "circles" else "layout.loop_diameter_mm"
+    name = ".".join(_sizes(layout))
+    return name if name.endswith(_LOOP[1]) else f"a diameter in {name}"
+
+
+def _stretched_twice(sections: Together) -> Iterator[Fault]:
+    layout = sections.layout
+    if layout.kind == "circles" and layout.axis_ratio != 1:
+        problem = 'must be left out for layout.kind = "circles": give it in each of layout.circles'
+        yield Fault(_RATIO, problem, number_text(layout.axis_ratio))
+    elif layout.axis_angle_deg and layout.axis_ratio == 1:
+        problem = "must be left out when layout.axis_ratio is 1: circles have no direction"
+        yield Fault(_ANGLE, problem, number_text(layout.axis_angle_deg))
 
 
 def _small_hoop(sections: Together) -> Iterator[Fault]:
     machine, layout = sections.machine, sections.layout
     if sections.wiring.split != "none" or sections.wiring.circuits:
         return  # where several pairs of tails leave is known when the wires are laid
-    known = layout.diameters_mm
+    known = layout.known_diameters_mm
     if not known or min(known) <= sections.wire.diameter_mm or not layout.loops():
         return  # that is said elsewhere
     try:
@@ -200,6 +230,10 @@ _KIND = ("layout", "kind")
 _ROWS = ("layout", "rows")
 _COLUMNS = ("layout", "columns")
 _LOOP = ("layout", "loop_diameter_mm")
+_DIAMETERS = ("layout", "diameters_mm")
+_RATIO = ("layout", "axis_ratio")
+_RATIO_NAME = ".".join(_RATIO)
+_ANGLE = ("layout", "axis_angle_deg")
 _MISSING = ("layout", "missing")
 _CIRCLES = ("layout", "circles")
 _TERMINALS = ("layout", "terminals")
@@ -208,24 +242,26 @@ _WIDTH = ("machine", "hoop_width_mm")
 _HEIGHT = ("machine", "hoop_height_mm")
 _PREVIEW = ("output", "preview_thickness_mm")
 
-_ARRANGING = (_ROWS, _COLUMNS, _LOOP, _CIRCLES)
+_ARRANGING = (_ROWS, _COLUMNS, _LOOP, _DIAMETERS, _CIRCLES)
+_SIZES = (_KIND, _LOOP, _DIAMETERS, _CIRCLES)
 
 _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str], ...]], ...] = (
-    (_missing_keys, (_KIND,)),
-    (_missing_cells, (_KIND, _ROWS, _COLUMNS, _MISSING)),
-    (_no_shape, (_KIND, _SHAPE)),
-    (_thick_wire, (_DIAMETER, _KIND, _LOOP, _CIRCLES)),
-    (_sharp_bend, (_DIAMETER, _KIND, _LOOP, _CIRCLES, ("stitching", "smallest_bend_diameters"))),
+    (_missing_keys, (_KIND, _DIAMETERS)),
+    (_missing_cells, (_KIND, _ROWS, _COLUMNS, _DIAMETERS, _MISSING)),
+    (_no_shape, (_KIND, _SHAPE, _DIAMETERS, _RATIO)),
+    (_thick_wire, (_DIAMETER, *_SIZES)),
+    (_sharp_bend, (_DIAMETER, *_SIZES, _RATIO, ("stitching", "smallest_bend_diameters"))),
+    (_stretched_twice, (_KIND, _RATIO, _ANGLE)),
     (
         _small_hoop,
         (
             _DIAMETER,
-            _KIND,
+            *_SIZES,
             _ROWS,
             _COLUMNS,
-            _LOOP,
+            _RATIO,
+            _ANGLE,
             _MISSING,
-            _CIRCLES,
             _TERMINALS,
             _WIDTH,
             _HEIGHT,

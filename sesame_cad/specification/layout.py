@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+from math import radians
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from patterns.lattice import Cell, Lattice, centred, lattice_cells, lattice_loops
-from patterns.layout import ROUNDED_MM, TANGENCY_TOLERANCE_MM, Loop
+from patterns.lattice import Lattice, centred, lattice_cells, lattice_loops, row_loops
+from patterns.layout import ROUNDED_MM, TANGENCY_TOLERANCE_MM
+from patterns.loop import Cell, Loop
 from patterns.terminals import Side
 from sesame_cad.specification.section import Allowed, Section
 
 Kind = Literal["grid", "brick", "hexagonal", "row", "circles"]
 
 TILING = ("grid", "row")
-"""Kinds whose loops, equal and with contacts a quarter turn apart, keep one shape side by side."""
+"""Kinds whose loops have contacts a quarter turn apart."""
+
+_UPRIGHT_DEG = 90
 
 CELL = Allowed("a list, each item a row and a column, such as [[1, 1], [2, 4]]")
 CIRCLES = Allowed(
-    "a list, each item with three numbers, such as {x_mm = 0, y_mm = 0, diameter_mm = 25}"
+    "a list, each item with three numbers, such as {x_mm = 0, y_mm = 0, diameter_mm = 25}, and for "
+    "an ellipse axis_ratio and axis_angle_deg"
 )
+DIAMETERS = Allowed("a list, each item a number from 0.1 to 10000, such as [25, 30, 25]")
+
+LARGEST_AXIS_RATIO = 5
 
 
 def _refuse_kept(value: object) -> object:
@@ -37,17 +45,28 @@ class Circle(Section):
     x_mm: float = Field(description="the centre's place in mm, to the right")
     y_mm: float = Field(description="the centre's place in mm, away from the operator")
     diameter_mm: float = Field(ge=0.1, le=10_000, description="the loop's diameter in mm")
+    axis_ratio: float = Field(
+        default=1.0, ge=1, le=LARGEST_AXIS_RATIO, description="its length over its width (no unit)"
+    )
+    axis_angle_deg: float = Field(
+        default=0.0, ge=-360, le=360, description="direction of its length in degrees"
+    )
+
+    def loop(self) -> Loop:
+        """Give the loop as the geometry knows it."""
+        angle = radians(self.axis_angle_deg)
+        return Loop(self.x_mm, self.y_mm, self.diameter_mm, self.axis_ratio, angle)
 
 
 class LayoutSection(Section):
-    """Tangent loops: on a lattice, some left out, or any circles."""
+    """Tangent loops: on a lattice, some left out, or any circles and ellipses."""
 
     kind: Kind = Field(
         default="grid",
         description=(
             "the arrangement of the loops (a word): a square grid; rows that are shifted by half a "
             "loop in turn, all equally long (brick) or clipped to the first row's width "
-            "(hexagonal); one row; or any tangent circles"
+            "(hexagonal); one row; or any tangent circles and ellipses"
         ),
     )
     rows: int | None = Field(
@@ -62,6 +81,29 @@ class LayoutSection(Section):
         le=10_000,
         description="the diameter in mm of the wire's centreline in a loop, in the hoop",
     )
+    diameters_mm: Annotated[tuple[Annotated[float, Field(ge=0.1, le=10_000)], ...], DIAMETERS] = (
+        Field(
+            default=(),
+            strict=False,
+            description=(
+                "the diameters in mm of the loops of a row, from the left, when they differ; "
+                "instead of layout.columns and layout.loop_diameter_mm"
+            ),
+        )
+    )
+    axis_ratio: float = Field(
+        default=1.0,
+        ge=1,
+        le=LARGEST_AXIS_RATIO,
+        description=(
+            "the length of each loop over its width (no unit); an ellipse is as long around as the "
+            "circle of its diameter"
+        ),
+    )
+    axis_angle_deg: Literal[0, 90] = Field(
+        default=0,
+        description="direction of the loops' length in degrees: along the rows or across them",
+    )
     missing: Annotated[tuple[Annotated[tuple[int, int], Field(strict=False)], ...], CELL] = Field(
         default=(),
         strict=False,  # TOML's lists are not tuples
@@ -74,7 +116,8 @@ class LayoutSection(Section):
         default=(),
         strict=False,
         description=(
-            "the loops' centres and diameters in mm, to four decimals, when the kind is circles"
+            "the loops' centres and diameters in mm, to four decimals, when the kind is circles; "
+            "of an ellipse also its length over its width, and its length's direction in degrees"
         ),
     )
     terminals: Literal["corner", "left", "right", "top", "bottom"] = Field(
@@ -87,22 +130,30 @@ class LayoutSection(Section):
     shape: Literal["cell", "none"] = Field(
         default="cell",
         description=(
-            "the prediction of the shape (a word): from one cell, as square grids and rows allow, "
-            "or none, for stitch and cut files only"
+            "the prediction of the shape (a word): from one cell, as square grids and rows of "
+            "equal circles allow, or none, for stitch and cut files only"
         ),
     )
 
     @property
     def diameter_mm(self) -> float:
         """Diameter of the loops, of circles the largest; 0 when it is not known."""
-        return self.loop_diameter_mm or max(self.diameters_mm, default=0.0)
+        return self.loop_diameter_mm or max(self.known_diameters_mm, default=0.0)
 
     @property
-    def diameters_mm(self) -> tuple[float, ...]:
+    def known_diameters_mm(self) -> tuple[float, ...]:
         """Every diameter that occurs, as far as it is known."""
-        if self.kind == "circles":
-            return tuple(sorted({circle.diameter_mm for circle in self.circles}))
-        return () if self.loop_diameter_mm is None else (self.loop_diameter_mm,)
+        return tuple(sorted({loop.diameter_mm for loop in self.kinds_of_loops()}))
+
+    @property
+    def tiles(self) -> bool:
+        """Whether loops fit together each in the shape that it takes alone.
+
+        Equal circles with contacts a quarter turn apart do, also when some are left out: every
+        contact that is left is as before, between two equal saddles on a crest or in a valley of
+        both, and a free edge asks for nothing. The lowest saddle of an ellipse is diagonal.
+        """
+        return self.kind in TILING and self.axis_ratio == 1 and len(set(self.diameters_mm)) <= 1
 
     @property
     def tolerance_mm(self) -> float:
@@ -114,6 +165,14 @@ class LayoutSection(Section):
         """Where the tails leave, as the geometry knows it."""
         return Side(self.terminals)
 
+    def kinds_of_loops(self) -> tuple[Loop, ...]:
+        """Give a loop of each size and shape, wherever it lies; as far as they are known."""
+        if self.kind == "circles":
+            return tuple(dict.fromkeys(one.loop() for one in self.circles))
+        one = () if self.loop_diameter_mm is None else (self.loop_diameter_mm,)
+        sizes = dict.fromkeys(self.diameters_mm or one)
+        return tuple(Loop(0.0, 0.0, size, self.axis_ratio) for size in sizes)
+
     def cells(self) -> tuple[Cell, ...]:
         """Rows and columns, from 0, of the loops of a lattice that are not left out."""
         gone = {(row - 1, column - 1) for row, column in self.missing}
@@ -123,16 +182,19 @@ class LayoutSection(Section):
         """Rows and columns, from 0, of a lattice's loops; none for circles."""
         if self.kind == "circles":
             return ()
-        return lattice_cells(self._lattice, self._rows, self.columns or 0)
+        columns = len(self.diameters_mm) or self.columns or 0
+        return lattice_cells(self._lattice, self._rows, columns)
 
     def loops(self) -> tuple[Loop, ...]:
         """Lay the loops, centred on the origin, in the order of the cells or circles."""
         if self.kind == "circles":
-            given = (Loop(one.x_mm, one.y_mm, one.diameter_mm) for one in self.circles)
-            return centred(tuple(given))
+            return centred(tuple(one.loop() for one in self.circles))
         gone = [(row - 1, column - 1) for row, column in self.missing]
+        stretch, upright = self.axis_ratio, self.axis_angle_deg == _UPRIGHT_DEG
+        if self.diameters_mm:
+            return row_loops(self.diameters_mm, gone, axis_ratio=stretch, upright=upright)
         size = (self._rows, self.columns or 0, self.loop_diameter_mm or 0.0)
-        return lattice_loops(self._lattice, *size, gone)
+        return lattice_loops(self._lattice, *size, gone, axis_ratio=stretch, upright=upright)
 
     @property
     def _rows(self) -> int:

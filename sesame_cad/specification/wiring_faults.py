@@ -101,14 +101,15 @@ def _wire_faults(
             )
             return
     limit = stitching.smallest_bend_diameters
-    smallest = min(layout.diameters_mm, default=float("inf"))
+    bends = (2 * loop.smallest_radius_mm for loop in layout.kinds_of_loops())
+    smallest = min(bends, default=float("inf"))
     for one in wiring.circuits:
         diameter = one.wire_diameter_mm
         if layout.kind != "circles" and diameter and smallest < 2 * limit * diameter * (1 - 1e-9):
             yield Fault(
                 _CIRCUITS,
                 f"circuit {one.name}: wire_diameter_mm = {number_text(diameter)} is too thick for "
-                f"loops of {number_text(smallest)} mm: it must be at most "
+                f"loops bent like circles of {smallest:.6g} mm: it must be at most "
                 f"{smallest / (2 * limit):.4g}, by "
                 f"stitching.smallest_bend_diameters = {number_text(limit)}",
             )

@@ -9,7 +9,8 @@ from shapely import Point
 from patterns.circuit import CrossingKind
 from patterns.errors import PatternError
 from patterns.grid import square_grid
-from patterns.layout import Loop, tangent_layout
+from patterns.layout import tangent_layout
+from patterns.loop import Loop
 from patterns.path import Arc, Line
 from patterns.tangent_switch import grid_circuit, single_circuit
 

@@ -4,7 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from patterns.errors import PatternError
-from patterns.layout import Loop, tangent_layout
+from patterns.layout import tangent_layout
+from patterns.loop import Loop
 
 
 def test_contact_of_unequal_loops_divides_the_line_of_centres_by_the_radii():

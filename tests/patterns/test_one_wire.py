@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from patterns.errors import PatternError
 from patterns.lattice import Lattice, lattice_cells, lattice_loops
-from patterns.layout import ROUNDED_MM, Loop, tangent_layout
+from patterns.layout import ROUNDED_MM, tangent_layout
+from patterns.loop import Loop
 from patterns.machine import Machine
 from patterns.one_wire import one_wire
 from patterns.path import Arc

@@ -3,7 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from patterns.layout import Loop, tangent_layout
+from patterns.layout import tangent_layout
+from patterns.loop import Loop
 from patterns.one_wire import one_wire
 from patterns.path import Line, WirePath
 from patterns.rules.near import near_stretches

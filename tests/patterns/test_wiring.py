@@ -12,7 +12,8 @@ from patterns.grid import square_grid
 from patterns.groups import Group, touching_groups
 from patterns.laid_wire import all_laid, laid_wire
 from patterns.lattice import Lattice, lattice_loops
-from patterns.layout import Layout, Loop, tangent_layout
+from patterns.layout import Layout, tangent_layout
+from patterns.loop import Loop
 from patterns.outline import cut_outline
 from patterns.path import Line, WirePath
 from patterns.plan import BlockKind, StitchPlan

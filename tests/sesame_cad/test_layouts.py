@@ -3,15 +3,18 @@
 import json
 from itertools import product
 from math import cos, pi, sin
+from pathlib import Path
 
 import pytest
 
+from patterns.loop import Loop
 from sesame_cad.errors import InputError
 from sesame_cad.files.stl import read_stl
 from sesame_cad.pipeline import pattern
 from sesame_cad.specification import specification_from
 from sesame_cad.verification import verify
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 WIRE = {"diameter_mm": 0.4}
 WIDE = {"hoop_width_mm": 900, "hoop_height_mm": 900}
 CHAIN = [
@@ -176,3 +179,101 @@ def test_the_summary_of_a_design_without_a_shape(run_command, tmp_path):
     assert code == 0
     assert "no shape is predicted" in out
     assert json.loads((tmp_path / "out" / "design.json").read_text())["beta"] is None
+
+
+@pytest.mark.parametrize("angle", [0, 90])
+@pytest.mark.parametrize("kind", ["grid", "brick", "hexagonal", "row"])
+def test_ellipses_on_every_lattice_make_a_pattern_that_breaks_no_rule(kind, angle):
+    oval = {"axis_ratio": 1.5, "axis_angle_deg": angle, "loop_diameter_mm": 50, "shape": "none"}
+    laid = pattern(specification(kind, **oval))
+    loop = laid.circuit.layout.loops[0]
+    width, height = loop.box_mm()[2] - loop.box_mm()[0], loop.box_mm()[3] - loop.box_mm()[1]
+    assert width / height == pytest.approx(1.5 if angle == 0 else 1 / 1.5)
+
+
+def test_a_row_of_different_loops_makes_a_pattern_that_breaks_no_rule():
+    row = {"kind": "row", "diameters_mm": [25, 30, 25], "shape": "none", "axis_ratio": 1}
+    data = {"wire": {"diameter_mm": 0.3}, "layout": row, "machine": WIDE}
+    laid = pattern(specification_from({**data, "outline": {"margin_mm": 1.3}}, "x"))
+    assert [loop.diameter_mm for loop in laid.circuit.layout.loops] == [25, 30, 25]
+    assert len(laid.circuit.layout.contacts) == 2
+
+
+def test_ellipses_in_any_direction_make_a_pattern_that_breaks_no_rule():
+    long_mm = Loop(0, 0, 70, 1.5).semi_axes_mm[0]
+    ovals = [
+        {"x_mm": place, "y_mm": 0, "diameter_mm": 70, "axis_ratio": 1.5}
+        for place in (0, round(2 * long_mm, 4))
+    ]
+    turned = [
+        {"x_mm": 0, "y_mm": one["x_mm"], "diameter_mm": 70, "axis_ratio": 1.5, "axis_angle_deg": 90}
+        for one in ovals
+    ]
+    for circles in (ovals, turned):
+        laid = pattern(specification("circles", circles=circles))
+        assert len(laid.circuit.layout.contacts) == 1
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ({"axis_ratio": 1.5}, "layout.axis_ratio = 1.5"),
+        ({"kind": "row", "rows": None, "axis_ratio": 2}, "layout.axis_ratio = 2"),
+    ],
+)
+def test_the_shape_of_ellipses_is_refused(keys, said):
+    layout = {"kind": "grid", "rows": 2, "columns": 2, "loop_diameter_mm": 80, **keys}
+    given = {key: value for key, value in layout.items() if value is not None}
+    (fault,) = faults(given, machine=WIDE)
+    assert f'layout.shape = "cell": must be "none" for {said}: its loops' in fault
+
+
+def test_the_shape_of_unequal_loops_is_refused():
+    (fault,) = faults({"kind": "row", "diameters_mm": [25, 30]})
+    assert 'must be "none" for a row of unequal loops' in fault
+
+
+@pytest.mark.parametrize(
+    ("layout", "said"),
+    [
+        ({"diameters_mm": [30, 40]}, "layout.diameters_mm: must be left out for layout.kind"),
+        ({"kind": "row", "diameters_mm": [30, 40]}, "left out when layout.diameters_mm is given"),
+        ({"kind": "circles", "axis_ratio": 2}, "give it in each of layout.circles"),
+        ({"axis_angle_deg": 90}, "must be left out when layout.axis_ratio is 1"),
+        ({"axis_ratio": 2, "axis_angle_deg": 45}, "axis_angle_deg = 45"),
+        ({"axis_ratio": 0.5}, "axis_ratio = 0.5: must be from 1 to 5"),
+        ({"kind": "row", "diameters_mm": [30, 0]}, "layout.diameters_mm"),
+        ({"kind": "row", "diameters_mm": [30, "wide"]}, "layout.diameters_mm"),
+        ({"axis_ratio": 3}, "a smaller loop with an axis ratio of 3 bends wire of 0.4 mm"),
+    ],
+)
+def test_what_does_not_go_with_ellipses_and_rows_is_said(layout, said):
+    found = faults({**layout_of(layout.get("kind", "grid")), "shape": "none", **layout})
+    assert any(said in fault for fault in found), found
+    assert all(len(fault.splitlines()) == 1 for fault in found)
+
+
+def test_an_ellipse_as_tight_as_the_wire_allows_is_sewn():
+    given = {"axis_ratio": 2, "shape": "none", "loop_diameter_mm": 40, "columns": 2}
+    (fault,) = faults({"kind": "row", **given}, machine=WIDE)
+    least = float(fault.partition("at least ")[2].split(":")[0])
+    row = {**given, "loop_diameter_mm": least * (1 + 1e-6)}
+    laid = pattern(specification("row", **row))
+    assert laid.circuit.smallest_radius_mm == pytest.approx(25 * WIRE["diameter_mm"], rel=1e-5)
+
+
+def test_a_whole_design_of_ellipses_is_as_it_should_be(run_design, tmp_path):
+    data = run_design([str(EXAMPLES / "ellipses.toml"), "-o", str(tmp_path / "out")])
+    circuit = data["circuit"]
+    assert circuit["covered_contacts"] == circuit["contacts"] == 33
+    bend = circuit["smallest_bend_radius_mm"]
+    assert circuit["largest_curvature_per_mm"] == pytest.approx(1 / bend)
+    assert verify(tmp_path / "out") == ()
+
+
+def test_the_needed_hoop_holds_ellipses():
+    given = {"axis_ratio": 2, "shape": "none", "loop_diameter_mm": 70}
+    (fault,) = faults(layout_of("row", **given), machine={"hoop_width_mm": 30})
+    needed = float(fault.partition("at least ")[2].split()[0])
+    data = {"wire": WIRE, "layout": layout_of("row", **given), "outline": {"margin_mm": 2.0}}
+    pattern(specification_from({**data, "machine": {"hoop_width_mm": needed + 0.1}}, "x"))

@@ -7,7 +7,8 @@ import pytest
 from PIL import Image
 
 from patterns.circuit import Circuit
-from patterns.layout import Layout, Loop
+from patterns.layout import Layout
+from patterns.loop import Loop
 from patterns.loop_order import loops_in_order
 from patterns.outline import Outline
 from patterns.path import Arc, Line, WirePath

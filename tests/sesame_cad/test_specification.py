@@ -258,6 +258,7 @@ UNITS = {
     "g_m2": "g/m2",
     "V": "in V",
     "A": "in A",
+    "deg": "degrees",
 }
 UNITLESS = ("no unit", "a count", "a word", "words", "a text", "true or false")
 
