@@ -10,9 +10,14 @@ import numpy as np
 
 from patterns.circuit import Circuit
 from patterns.couching import FREE_TAIL_MM
+from patterns.machine import Machine
 from patterns.path import Vectors
 
 MARKS_TEXT = "Thread head, a thread that stands out against the fabric: the registration marks."
+
+STRIPES_TEXT = (
+    "Thread head, a thread that does not stretch: stripes across the loops, over the laid wire."
+)
 
 
 @dataclass(frozen=True)
@@ -23,12 +28,14 @@ class Instructions:
     ----------
     circuit : Circuit
     wire_diameter_mm : float
+    machine : Machine
     satin : sequence of sequences of arrays (n, 2)
         Needle points in mm of the covers before the second stage, the third, and so on.
     """
 
     circuit: Circuit
     wire_diameter_mm: float
+    machine: Machine
     satin: Sequence[Sequence[Vectors]]
 
     def wire(self, stage: int) -> str:
@@ -37,12 +44,12 @@ class Instructions:
         if stage == 0:
             slack = max(self._slack_mm(later) for later in range(1, self._count))
             return (
-                f"Wire head: load at least {ceil(self.circuit.wire_length_mm)} mm of "
+                f"{self._head}: load at least {ceil(self.circuit.wire_length_mm)} mm of "
                 f"{self.wire_diameter_mm:g} mm wire, both tails included, and {slack} mm of slack. "
                 f"Let {FREE_TAIL_MM:g} mm of wire stand out behind the needle, for the crimp. "
                 f"{laid}"
             )
-        text = f"Wire head, the same wire: take the slack back. {laid}"
+        text = f"{self._head}, the same wire: take the slack back. {laid}"
         if stage < self._count - 1:
             return text
         return (
@@ -58,6 +65,17 @@ class Instructions:
             f"it clear of the needle. Thread head, cover thread: satin on the laid wire for "
             f"{self._name(stage).lower()}, {count} crossing{'s' if count > 1 else ''}."
         )
+
+    @property
+    def _head(self) -> str:
+        """Name what lays the wire, and how it is to be set."""
+        if self.machine.hand_guided:
+            return (
+                "Presser foot for cording, wire led by hand along the middle of the zigzag, slowly"
+            )
+        if self.machine.couching == "centreline":
+            return f"Wire head, swing set to {self.machine.swing_mm:g} mm"
+        return "Wire head"
 
     @property
     def _count(self) -> int:

@@ -1,22 +1,28 @@
-"""The whole plan: marks, then the stages of the wire with covers in between."""
+"""The whole plan: marks, then the stages of the wire with covers in between, then stripes."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 from patterns.circuit import Circuit, CrossingKind
-from patterns.couching import FREE_TAIL_MM, LEFT, RIGHT, couching, needle_clearance_mm
+from patterns.couching import FREE_TAIL_MM, needle_clearance_mm
 from patterns.cover import covers
-from patterns.errors import PatternError
-from patterns.instructions import MARKS_TEXT, Instructions
+from patterns.errors import NoRoomError, PatternError
+from patterns.instructions import MARKS_TEXT, STRIPES_TEXT, Instructions
 from patterns.laid_wire import LaidWire, all_laid, laid_wire
 from patterns.machine import Machine
 from patterns.mark_stitches import mark_stitches
-from patterns.path import Vectors, WirePath
+from patterns.path import Vectors
 from patterns.plan import UNITS_PER_MM, Block, BlockKind, StitchPlan
 from patterns.registration import Mark
+from patterns.room import roomy_diameter_mm
 from patterns.sewn_run import thread_run, wire_run
 from patterns.stitching import Stitching
+from patterns.stripes import ANGLE_DEG, stripes
+from patterns.tied_down import tied_down
 
 
 def stitch_plan(
@@ -41,9 +47,8 @@ def stitch_plan(
     """
     clear = needle_clearance_mm(wire_diameter_mm, machine, stitching)
     _check_settings(circuit, stitching, machine, clear)
-    parts = [laid_wire(stage) for stage in circuit.stages]
-    laid = [all_laid(parts[: k + 1]) for k in range(len(parts))]
-    tied = _tied_down(circuit, laid, clear, stitching)
+    laid = _laid_by_stage(circuit)
+    tied = _with_room(circuit, partial(_tied_down, clear, machine, stitching))
     satin = [
         covers(
             circuit,
@@ -53,9 +58,9 @@ def stitch_plan(
             wire_diameter_mm=wire_diameter_mm,
             stitching=stitching,
         )
-        for stage in range(1, len(parts))
+        for stage in range(1, len(laid))
     ]
-    say = Instructions(circuit, wire_diameter_mm, satin)
+    say = Instructions(circuit, wire_diameter_mm, machine, satin)
     blocks = [*_mark_blocks(marks, stitching, machine)]
     for stage, points in enumerate(tied):
         if stage:
@@ -63,27 +68,65 @@ def stitch_plan(
             blocks.append(Block(BlockKind.COVER, say.cover(stage), runs, stage))
         run = wire_run(points, machine)
         blocks.append(Block(BlockKind.WIRE, say.wire(stage), (run,), stage))
+    blocks.extend(_stripe_blocks(circuit, laid[-1], clear, machine, stitching))
     for block in blocks:
-        if block.kind is not BlockKind.MARKS:
+        if block.kind is BlockKind.STRIPES:
+            _check_clear(block, laid[-1], clear - stitching.needle_margin_mm)
+        elif block.kind is BlockKind.COVER or (block.kind.is_wire and machine.couching == "zigzag"):
             before = block.kind is BlockKind.COVER
             _check_clear(block, laid[block.stage - before], clear - stitching.needle_margin_mm)
     return StitchPlan(tuple(blocks))
 
 
+def _laid_by_stage(circuit: Circuit) -> list[LaidWire]:
+    """All wire that lies there once each stage is laid."""
+    parts = [laid_wire(stage) for stage in circuit.stages]
+    return [all_laid(parts[: k + 1]) for k in range(len(parts))]
+
+
 def _tied_down(
-    circuit: Circuit, laid: list[LaidWire], clear_mm: float, stitching: Stitching
+    clear_mm: float, machine: Machine, stitching: Stitching, circuit: Circuit
 ) -> list[Vectors]:
-    """Needle points of the couching of every stage; the free ends of the tails have none."""
-    tied: list[Vectors] = []
-    for stage, wire in enumerate(circuit.stages):
-        begin = FREE_TAIL_MM if stage == 0 else 0.0
-        end = wire.length_mm - (FREE_TAIL_MM if stage == len(laid) - 1 else 0.0)
-        # Not into the last hole of the stage before, whose lock it would loosen.
-        side = _other_side(wire, tied[-1][-1]) if tied else LEFT
-        tied.append(
-            couching(wire, (begin, end), side, laid[stage], clear_mm=clear_mm, stitching=stitching)
-        )
-    return tied
+    laid = _laid_by_stage(circuit)
+    return tied_down(circuit, laid, clear_mm=clear_mm, machine=machine, stitching=stitching)
+
+
+def _with_room(circuit: Circuit, tie: Callable[[Circuit], list[Vectors]]) -> list[Vectors]:
+    """Tie down; without room for the needle, say how large the loops must be."""
+
+    def has_room(larger: Circuit) -> bool:
+        try:
+            tie(larger)
+        except NoRoomError:
+            return False
+        return True
+
+    try:
+        return tie(circuit)
+    except NoRoomError as error:
+        diameter = roomy_diameter_mm(circuit, has_room)
+        if diameter is None:
+            raise
+        raise NoRoomError(
+            f"{error}; all else as it is, loops of {diameter:g} mm or so are the smallest with room"
+        ) from None
+
+
+def _stripe_blocks(
+    circuit: Circuit, laid: LaidWire, clear_mm: float, machine: Machine, stitching: Stitching
+) -> tuple[Block, ...]:
+    if stitching.stripes == "none":
+        return ()
+    sewn = stripes(
+        circuit.layout.loops,
+        laid,
+        angle_deg=ANGLE_DEG[stitching.stripes],
+        clear_mm=clear_mm,
+        longest_mm=machine.longest_stitch_mm,
+        stitching=stitching,
+    )
+    runs = tuple(thread_run(own, machine) for own in sewn)
+    return (Block(BlockKind.STRIPES, STRIPES_TEXT, runs),)
 
 
 def _check_settings(
@@ -101,13 +144,11 @@ def _check_settings(
             f"a stitch over the wire is {2 * clear_mm:.2f} mm long, and the machine's shortest is "
             f"{machine.shortest_stitch_mm:g} mm: it would merge the stitches that hold the wire"
         )
-
-
-def _other_side(wire: WirePath, needle_mm: Vectors) -> float:
-    """Side of a wire's start on which a needle point does not lie."""
-    point, tangent = wire.at(0.0)
-    (x, y), (tx, ty) = needle_mm - point[0], tangent[0]
-    return RIGHT if tx * y - ty * x > 0 else LEFT
+    if machine.couching == "centreline" and machine.swing_mm < 2 * clear_mm:
+        raise PatternError(
+            f"the needle swings by machine.swing_mm = {machine.swing_mm:g} mm and would strike the "
+            f"wire: wire, needle and margin need {2 * clear_mm:.3f} mm"
+        )
 
 
 def _mark_blocks(

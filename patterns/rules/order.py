@@ -11,12 +11,12 @@ _Part = tuple[BlockKind, int]
 
 
 def check_blocks(subject: Subject) -> list[Violation]:
-    """Check for marks (if any), then the stages with a cover before each but the first, in order.
+    """Check for marks (if any), the stages with a cover before each but the first, then stripes.
 
-    Each must be there once, and nothing else.
+    Each must be there once, in order, and nothing else; stripes only when they are asked for.
     """
     parts = [(block.kind, block.stage) for block in subject.plan.blocks]
-    order = _order(len(subject.circuit.stages))
+    order = _order(len(subject.circuit.stages), striped=subject.stitching.stripes != "none")
     faults = [
         Violation(_RULE, f"{_name(part)} is missing: no block {part[0].value}", 0.0, 0.0)
         for part in order[1:]
@@ -38,10 +38,11 @@ def check_blocks(subject: Subject) -> list[Violation]:
     return faults
 
 
-def _order(stages: int) -> list[_Part]:
+def _order(stages: int, *, striped: bool) -> list[_Part]:
     """Everything that is sewn, in order; the marks, which need not be, first."""
     wires = [(kind, k) for k in range(stages) for kind in (BlockKind.COVER, BlockKind.WIRE)]
-    return [(BlockKind.MARKS, 0), *wires[1:]]
+    stripes = [(BlockKind.STRIPES, 0)] if striped else []
+    return [(BlockKind.MARKS, 0), *wires[1:], *stripes]
 
 
 def _name(part: _Part) -> str:
@@ -50,6 +51,7 @@ def _name(part: _Part) -> str:
         BlockKind.MARKS: "the registration marks",
         BlockKind.COVER: f"the cover before stage {stage + 1} of the wire",
         BlockKind.WIRE: f"stage {stage + 1} of the wire",
+        BlockKind.STRIPES: "the block of stripes",
     }
     return names[kind]
 

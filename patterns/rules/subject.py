@@ -70,7 +70,8 @@ class Subject:
     @property
     def reach_mm(self) -> float:
         """Farthest from the wire that a stitch still holds it: four half-widths of the couching."""
-        return 4 * (self.clearance_mm + self.stitching.needle_margin_mm) + ROUNDING_MM
+        half_width = self.clearance_mm + self.stitching.needle_margin_mm
+        return 4 * half_width + self.stitching.wider_by_mm + ROUNDING_MM
 
     @property
     def separation_mm(self) -> float:

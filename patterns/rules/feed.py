@@ -1,0 +1,49 @@
+"""At both ends of the wire there is room to feed it and to cut it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from patterns.couching import FREE_TAIL_MM
+from patterns.path import Line, Piece
+from patterns.rules.subject import Subject
+from patterns.stitching import ROUNDING_MM
+from patterns.violation import Violation
+
+_RULE = "feed-and-cut"
+
+
+def check_feed_and_cut(subject: Subject) -> list[Violation]:
+    """The wire starts and ends straight, with nothing sewn over the last `FREE_TAIL_MM` of it."""
+    pieces = subject.circuit.wire.pieces
+    whole = subject.circuit.wire_length_mm
+    return [
+        *_check_end(subject, pieces[0], 0.0, "starts"),
+        *_check_end(subject, pieces[-1], whole, "ends"),
+    ]
+
+
+def _check_end(subject: Subject, tail: Piece, end_mm: float, verb: str) -> list[Violation]:
+    straight = tail.length_mm if isinstance(tail, Line) else 0.0
+    if straight < FREE_TAIL_MM:
+        at, _ = subject.circuit.wire.at(end_mm)
+        message = f"the wire {verb} without a straight tail to feed and to cut: length"
+        place = float(at[0, 0]), float(at[0, 1])
+        return [Violation(_RULE, message, *place, actual=straight, allowed=FREE_TAIL_MM)]
+    return _check_free(subject, end_mm, verb)
+
+
+def _check_free(subject: Subject, end_mm: float, verb: str) -> list[Violation]:
+    """Check that no needle point, but those of marks, lies beside the free end of the tail."""
+    message = f"the stitch leaves no free wire where it {verb}, to feed and to cut: length"
+    faults: list[Violation] = []
+    for block in sorted(set(subject.laying.values())):
+        nearest = subject.wire.nearest(subject.needles_mm[block], subject.reach_mm)
+        free = np.abs(nearest.station_mm - end_mm)
+        faults.extend(
+            subject.fault(
+                _RULE, message, block, int(i), actual=float(free[i]), allowed=FREE_TAIL_MM
+            )
+            for i in np.flatnonzero(free < FREE_TAIL_MM - 2 * ROUNDING_MM)
+        )
+    return faults
