@@ -9,9 +9,11 @@ from patterns.circuit import CrossingKind
 from patterns.electrics import resistance_ohm
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
+from patterns.sewing_time import sewing_time_s
 from sesame_cad.answer_data import solve_account
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.specification import Specification
+from sesame_cad.specification.machine import MachineSection
 from sesame_cad.state import State
 from solver.equilibrium import Equilibrium
 from solver.omitted import OmittedTerm
@@ -43,7 +45,8 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         "reading": spec.model.reading,
         **_shape_data(design),
         "circuit": circuit_data(spec, design.pattern),
-        "stitch": stitch_data(design.pattern.plan, records),
+        "stitch": stitch_data(design.pattern.plan, records)
+        | machine_data(spec.machine, design.pattern.plan),
         "outline": {
             "openings": len(design.pattern.outline.openings),
             "margin_mm": spec.outline.margin_mm,
@@ -153,4 +156,13 @@ def stitch_data(plan: StitchPlan, records: Records) -> Data:
             }
             for block in plan.blocks
         ],
+    }
+
+
+def machine_data(machine: MachineSection, plan: StitchPlan) -> Data:
+    """Keys of the stitch file that depend on the machine: its time, and the thread of each kind."""
+    seconds = sewing_time_s(plan, machine.speed_spm, machine.wire_speed_spm, machine.stop_time_s)
+    return {
+        "sewing_time_min": round(seconds / 60, 1),
+        "threads": {str(kind): one for kind, one in zip(BlockKind, machine.threads, strict=True)},
     }

@@ -68,7 +68,7 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
     progress("stitch files")
     for name in spec.output.formats:
         if name == "dst":
-            yield f"stitch/{spec.name}.dst", write_dst(records, spec.name)
+            yield f"stitch/{spec.name}.dst", write_dst(records, spec.name, spec.dst_switches())
         else:
             yield f"stitch/{spec.name}.{name}", write_embroidery(records, name)
     progress("cut lines")

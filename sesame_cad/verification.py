@@ -203,7 +203,9 @@ def _check_stitches(reading: _Reading) -> Faults:
             continue
         try:
             records = (
-                decode_dst(content).records if kind == "dst" else read_embroidery(content, kind)
+                decode_dst(content, reading.made.spec.dst_switches()).records
+                if kind == "dst"
+                else read_embroidery(content, kind)
             )
         except DesignFileError as error:
             yield f"{path}: {error}"

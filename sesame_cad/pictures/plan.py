@@ -22,7 +22,7 @@ Vectors = NDArray[np.float64]
 STAGES = ("#0072B2", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#8B5A2B")
 """Of the stages of the wire; after the last the first comes again."""
 
-COVER = "#009E73"
+COVER, STRIPE = "#009E73", "#F0E442"
 NEEDLE, CUT, MARK = "#777777", "#555555", "#000000"
 
 _WIDTH_IN = 9.0
@@ -41,7 +41,8 @@ def plan_picture(
     axes = figure.add_subplot()
     _draw_cut(axes, outline, marks)
     _draw_needles(axes, plan)
-    _draw_covers(axes, plan)
+    _draw_thread(axes, plan, BlockKind.COVER, COVER, "thread cover")
+    _draw_thread(axes, plan, BlockKind.STRIPES, STRIPE, "stripe")
     arrow_mm = _arrow_mm(circuit, outline)
     for k, stage in enumerate(circuit.stages):
         _draw_wire(axes, stage, _colour(k), f"wire, stage {k + 1}", arrow_mm)
@@ -96,16 +97,15 @@ def _draw_needles(axes: Axes, plan: StitchPlan) -> None:
         axes.scatter(x, y, s=3.0, c=NEEDLE, linewidths=0, label="needle point", zorder=2)
 
 
-def _draw_covers(axes: Axes, plan: StitchPlan) -> None:
+def _draw_thread(axes: Axes, plan: StitchPlan, kind: BlockKind, colour: str, label: str) -> None:
     runs = [
         run.needles / UNITS_PER_MM
         for block in plan.blocks
-        if block.kind is BlockKind.COVER
+        if block.kind is kind
         for run in block.runs
     ]
     if runs:
-        label = "thread cover"
-        lines = LineCollection(runs, colors=COVER, linewidths=1.4, label=label, zorder=4)
+        lines = LineCollection(runs, colors=colour, linewidths=1.4, label=label, zorder=4)
         axes.add_collection(lines)
 
 
