@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from patterns.errors import PatternError
+from patterns.errors import NoRoomError, PatternError
 from patterns.laid_wire import LaidWire
 from patterns.locks import sides_with_locks, with_locks
 from patterns.machine import Machine
 from patterns.path import Vectors, WirePath
+from patterns.stations import Pace, Stations, even_stations, pace
 from patterns.stitching import Stitching
 
 FREE_TAIL_MM = 10.0
@@ -49,6 +50,7 @@ def couching(
     *,
     clear_mm: float,
     stitching: Stitching,
+    junctions_mm: Lengths | None = None,
 ) -> Vectors:
     """Tie down a stretch of wire in one run, locked at both ends.
 
@@ -64,6 +66,9 @@ def couching(
         Wire that the needle must miss, this one included.
     clear_mm
         Smallest distance of the needle from a centreline.
+    junctions_mm
+        Where along the wire a stitch crosses it square, as far as there is a place for the needle
+        on both sides.
 
     Returns
     -------
@@ -73,20 +78,20 @@ def couching(
     Raises
     ------
     PatternError
-        As `needle_points`, or when the span holds no stitch.
+        When the span holds no stitch.
+    NoRoomError
+        As `needle_points`.
     """
-    begin, end = span_mm
-    if end - begin < stitching.lock_length_mm:
-        raise PatternError(f"there are only {end - begin:.2f} mm of wire to stitch down")
+    check_span(span_mm, stitching)
+    measure = pace(path, stitching)
+    begin, end = measure.of(np.array(span_mm))
+    crossed = np.empty(0) if junctions_mm is None else junctions_mm
+    junctions = measure.of(_roomy(path, crossed, laid, clear_mm))
     stations, sides = np.empty(0), np.empty(0)
     for share in SHARES_OF_INTERVAL:
-        spacing = share * stitching.couching_interval_mm
-        steps = max(1, int(np.ceil((end - begin) / spacing - CLEAR_TOLERANCE_MM)))
-        stations = np.linspace(begin, end, steps + 1)
-        sides = alternate_sides(len(stations), first_side)
-        # two neighbours that move apart by this much are one interval apart
-        play = (stitching.couching_interval_mm - (end - begin) / steps) / 2
-        stations = _out_of_the_way(path, stations, sides, laid, clear_mm, play=play)
+        spaced = even_stations(begin, end, junctions, share)
+        sides = alternate_sides(len(spaced.at), first_side)
+        stations = _out_of_the_way(path, spaced, sides, laid, measure=measure, clear_mm=clear_mm)
         stations = with_locks(stations, stitching.lock_length_mm)
         sides = sides_with_locks(sides)
         if not np.any(np.isnan(_offsets(path, stations, sides, laid, clear_mm))):
@@ -94,23 +99,38 @@ def couching(
     return needle_points(path, stations, sides, laid, clear_mm)
 
 
+def check_span(span_mm: tuple[float, float], stitching: Stitching) -> None:
+    """Refuse a stretch of wire in which no lock has room."""
+    begin, end = span_mm
+    if end - begin < stitching.lock_length_mm:
+        raise PatternError(f"there are only {end - begin:.2f} mm of wire to stitch down")
+
+
+def _roomy(path: WirePath, at_mm: Lengths, laid: LaidWire, clear_mm: float) -> Lengths:
+    """Give the places at which the needle has room on both sides of the wire."""
+    clear = [
+        ~np.isnan(_offsets(path, at_mm, np.full(len(at_mm), side), laid, clear_mm))
+        for side in (LEFT, RIGHT)
+    ]
+    return at_mm[clear[0] & clear[1]]
+
+
 def _out_of_the_way(
     path: WirePath,
-    stations_mm: Lengths,
+    spaced: Stations,
     sides: Sides,
     laid: LaidWire,
-    clear_mm: float,
     *,
-    play: float,
+    measure: Pace,
+    clear_mm: float,
 ) -> Lengths:
-    """Move stations that find no place for the needle along the wire, by at most ``play``."""
-    stations = stations_mm.copy()
+    """Stations in mm; those that find no place for the needle are moved within their play."""
+    stations = measure.back(spaced.at)
     for share in PLAY_STEPS:
-        stuck = np.isnan(_offsets(path, stations, sides, laid, clear_mm))
-        stuck[[0, -1]] = False  # where the run begins and ends is given
+        stuck = np.isnan(_offsets(path, stations, sides, laid, clear_mm)) & (spaced.play > 0)
         if not stuck.any():
             break
-        stations[stuck] = stations_mm[stuck] + share * play
+        stations[stuck] = measure.back(spaced.at + share * spaced.play)[stuck]
     return stations
 
 
@@ -120,13 +140,20 @@ def alternate_sides(count: int, first_side: float = LEFT) -> Sides:
 
 
 def needle_points(
-    path: WirePath, stations_mm: Lengths, sides: Sides, laid: LaidWire, clear_mm: float
+    path: WirePath,
+    stations_mm: Lengths,
+    sides: Sides,
+    laid: LaidWire,
+    clear_mm: float,
+    *,
+    wider_mm: float | Lengths = 0.0,
 ) -> Vectors:
     """Place the needle beside the wire, or beyond an earlier wire that runs next to it.
 
-    Every point goes outward along its normal to the smallest offset, at least ``clear_mm``, at
-    which no wire is nearer than ``clear_mm``. A point with a wire at distance d < clear must move
-    by at least clear - d: stepping so can never pass over the smallest offset.
+    Every point goes outward along its normal to the smallest offset, at least ``clear_mm`` and
+    what it is to be wider, at which no wire is nearer than ``clear_mm``. A point with a wire at
+    distance d < clear must move by at least clear - d: stepping so can never pass over the smallest
+    offset.
 
     Parameters
     ----------
@@ -136,13 +163,15 @@ def needle_points(
         All wire that the needle must miss.
     clear_mm
         Smallest distance from a centreline.
+    wider_mm
+        How much farther from its own wire the needle goes at least, of all points or each (n,).
 
     Raises
     ------
-    PatternError
+    NoRoomError
         When a point is still not clear at `LARGEST_OFFSET` clearances; the message says where.
     """
-    offset = _offsets(path, stations_mm, sides, laid, clear_mm)
+    offset = _offsets(path, stations_mm, sides, laid, clear_mm, wider_mm=wider_mm)
     point, outward = _normals(path, stations_mm, sides)
     stuck = np.flatnonzero(np.isnan(offset))
     if stuck.size:
@@ -157,11 +186,18 @@ def _normals(path: WirePath, stations_mm: Lengths, sides: Sides) -> tuple[Vector
 
 
 def _offsets(
-    path: WirePath, stations_mm: Lengths, sides: Sides, laid: LaidWire, clear_mm: float
+    path: WirePath,
+    stations_mm: Lengths,
+    sides: Sides,
+    laid: LaidWire,
+    clear_mm: float,
+    *,
+    wider_mm: float | Lengths = 0.0,
 ) -> Lengths:
     """Smallest clear offsets (n,) along the normals; NaN where none is small enough."""
     point, outward = _normals(path, stations_mm, sides)
-    offset = np.full(len(point), clear_mm)
+    offset = np.full(len(point), clear_mm) + wider_mm
+    farthest = LARGEST_OFFSET * clear_mm + wider_mm + np.zeros(len(point))
     moving = np.arange(len(point))
     while moving.size:
         needle = point[moving] + offset[moving, None] * outward[moving]
@@ -169,14 +205,14 @@ def _offsets(
         blocked = lacking > CLEAR_TOLERANCE_MM
         moving = moving[blocked]
         offset[moving] += lacking[blocked]
-        offset[moving[offset[moving] > LARGEST_OFFSET * clear_mm]] = np.nan
+        offset[moving[offset[moving] > farthest[moving]]] = np.nan
         moving = moving[~np.isnan(offset[moving])]
     return offset
 
 
-def _no_place(point_mm: Vectors, clear_mm: float) -> PatternError:
+def _no_place(point_mm: Vectors, clear_mm: float) -> NoRoomError:
     x, y = point_mm
-    return PatternError(
+    return NoRoomError(
         f"no place for the needle beside the wire at ({x:.2f}, {y:.2f}) mm: within "
         f"{LARGEST_OFFSET * clear_mm:.2f} mm of it every point is nearer than {clear_mm:.2f} mm to "
         f"a wire; larger loops, a thinner needle or a smaller margin would make room"

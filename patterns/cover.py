@@ -6,13 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from patterns.circuit import Circuit
-from patterns.couching import alternate_sides, needle_points
+from patterns.couching import LEFT, RIGHT, alternate_sides, needle_points
 from patterns.laid_wire import LaidWire, laid_wire
-from patterns.locks import sides_with_locks, with_locks
+from patterns.locks import POINTS_PER_LOCK, sides_with_locks, with_locks
 from patterns.path import Vectors, WirePath
 from patterns.stitching import Stitching
 
 EDGE_TOLERANCE_MM = 0.005
+
+UNDERLAY_STITCH_MM = 2.0
+"""Longest stitch along the wire of the underlay of a cover."""
 
 Lengths = NDArray[np.float64]
 
@@ -46,7 +49,8 @@ def covers(
     -------
     list of Vectors
         For each crossing the needle points (n, 2) in mm, on alternate sides of the laid wire but
-        for the locks at both ends.
+        for the underlay and the locks at both ends. No needle goes in below the middle of a cover:
+        there the wire is, so an underlay runs along its edges.
 
     Raises
     ------
@@ -57,12 +61,11 @@ def covers(
     if not spans:
         return []
     spans.sort(reverse=True)
-    stations = [_stations(begin, end, stitching.cover_spacing_mm) for begin, end in spans]
-    sides = [sides_with_locks(alternate_sides(len(own))) for own in stations]
-    locked = [with_locks(own, stitching.lock_length_mm) for own in stations]
+    sewn = [_cover_needles(begin, end, stitching) for begin, end in spans]
     wire = circuit.laid_before(stage)
-    points = needle_points(wire, np.concatenate(locked), np.concatenate(sides), laid, clear_mm)
-    return np.split(points, np.cumsum([len(own) for own in locked])[:-1])
+    stations, sides, wider = (np.concatenate(part) for part in zip(*sewn, strict=True))
+    points = needle_points(wire, stations, sides, laid, clear_mm, wider_mm=wider)
+    return np.split(points, np.cumsum([len(own) for own, _, _ in sewn])[:-1])
 
 
 def cover_spans_mm(
@@ -70,8 +73,9 @@ def cover_spans_mm(
 ) -> Lengths:
     """Where along the laid wire each cover begins and ends (n, 2), in the order of the crossings.
 
-    A cover reaches one stitch past the last point at which the surface of the wire of the stage,
-    that is laid next, is nearer than ``cover_reach_mm``, or to an end of that wire.
+    A cover reaches ``cover_overlap_mm`` and one stitch past the last point at which the surface of
+    the wire of the stage, that is laid next, is nearer than ``cover_reach_mm``, or to an end of
+    the wire that it covers.
     """
     near_mm = wire_diameter_mm + stitching.cover_reach_mm
     crossing = np.array([c.first_mm for c in circuit.crossings_of(stage, part)], dtype=float)
@@ -86,12 +90,31 @@ def cover_spans_mm(
         near_mm,
         ends_mm=laid,
     ).reshape(-1, 2)
-    beyond = edge + np.array([-stitching.cover_spacing_mm, stitching.cover_spacing_mm])
-    return np.clip(beyond, *laid)
+    past = stitching.cover_overlap_mm + stitching.cover_spacing_mm
+    return np.clip(edge + np.array([-past, past]), *laid)
+
+
+def _cover_needles(
+    begin_mm: float, end_mm: float, stitching: Stitching
+) -> tuple[Lengths, Lengths, Lengths]:
+    """Stations, sides and widening of a cover: an underlay there and back, if any, then satin."""
+    satin = _stations(begin_mm, end_mm, stitching.cover_spacing_mm)
+    sides = alternate_sides(len(satin))
+    wider = np.full(len(satin), stitching.wider_by_mm)
+    if stitching.cover_underlay == "edge":
+        there = _stations(begin_mm, end_mm, UNDERLAY_STITCH_MM)
+        satin = np.concatenate([there, there[::-1], satin])
+        sides = np.concatenate([np.repeat([LEFT, RIGHT], len(there)), sides])
+        wider = np.concatenate([np.zeros(2 * len(there)), wider])
+    return (
+        with_locks(satin, stitching.lock_length_mm),
+        sides_with_locks(sides),
+        np.pad(wider, POINTS_PER_LOCK, mode="edge"),
+    )
 
 
 def _stations(begin_mm: float, end_mm: float, spacing_mm: float) -> Lengths:
-    """Needle stations of a cover, evenly, at most a spacing apart."""
+    """Needle stations, evenly, at most a spacing apart."""
     return np.linspace(begin_mm, end_mm, int(np.ceil((end_mm - begin_mm) / spacing_mm)) + 1)
 
 

@@ -10,9 +10,16 @@ import numpy as np
 
 from patterns.circuit import Circuit
 from patterns.couching import FREE_TAIL_MM
+from patterns.machine import Machine
 from patterns.path import Vectors
 
-MARKS_TEXT = "Thread head, a thread that stands out against the fabric: the registration marks."
+MARKS_TEXT = "a thread that stands out against the fabric: the registration marks."
+STRIPES_TEXT = "a thread that does not stretch: stripes across the loops, over the laid wire."
+
+
+def with_thread(machine: Machine, what: str) -> str:
+    """Say what is done with thread alone: on machines without heads, under the usual foot."""
+    return f"{'Embroidery foot' if machine.hand_guided else 'Thread head'}, {what}"
 
 
 @dataclass(frozen=True)
@@ -24,12 +31,14 @@ class Instructions:
     circuit : Circuit
     diameters_mm : tuple of float
         Wire diameter of each stage.
+    machine : Machine
     satin : sequence of sequences of arrays (n, 2)
         Needle points in mm of the covers before the second stage, the third, and so on.
     """
 
     circuit: Circuit
     diameters_mm: tuple[float, ...]
+    machine: Machine
     satin: Sequence[Sequence[Vectors]]
 
     def wire(self, stage: int) -> str:
@@ -39,7 +48,7 @@ class Instructions:
         if self.circuit.begins_wire(stage):
             text = f"{self._load(stage)} {laid}"
         else:
-            text = f"Wire head, the same wire: take the slack back. {laid}"
+            text = f"{self._head}, the same wire: take the slack back. {laid}"
         if not self.circuit.ends_wire(stage):
             return text
         return (
@@ -50,9 +59,10 @@ class Instructions:
     def cover(self, stage: int) -> str:
         """Before the cover on which a stage will lie."""
         count = len(self.satin[stage - 1])
-        satin = (
-            f"Thread head, cover thread: satin on the laid wire for "
-            f"{self._lowered(self._name(stage))}, {count} crossing{'s' if count > 1 else ''}."
+        satin = with_thread(
+            self.machine,
+            f"cover thread: satin on the laid wire for {self._lowered(self._name(stage))}, "
+            f"{count} crossing{'s' if count > 1 else ''}.",
         )
         if self.circuit.begins_wire(stage):
             return satin
@@ -61,12 +71,23 @@ class Instructions:
             f"it clear of the needle. {satin}"
         )
 
+    @property
+    def _head(self) -> str:
+        """Name what lays the wire, and how it is to be set."""
+        if self.machine.hand_guided:
+            return (
+                "Presser foot for cording, wire led by hand along the middle of the zigzag, slowly"
+            )
+        if self.machine.couching == "centreline":
+            return f"Wire head, swing set to {self.machine.swing_mm:g} mm"
+        return "Wire head"
+
     def _load(self, stage: int) -> str:
         """Mount the wire that begins with a stage."""
         part = self.circuit.part_of_stage[stage]
         slack = max((self._slack_mm(later) for later in self._own(stage)[1:]), default=0)
         return (
-            f"Wire head: load at least {ceil(self.circuit.parts[part].wire_length_mm)} mm of "
+            f"{self._head}: load at least {ceil(self.circuit.parts[part].wire_length_mm)} mm of "
             f"{self.diameters_mm[stage]:g} mm wire, both tails included, and {slack} mm of slack. "
             f"Let {FREE_TAIL_MM:g} mm of wire stand out behind the needle, for the crimp."
         )

@@ -26,6 +26,7 @@ class BlockKind(StrEnum):
     MARKS = "marks"
     WIRE = "wire"
     COVER = "cover"
+    STRIPES = "stripes"
 
     @property
     def is_wire(self) -> bool:
@@ -59,7 +60,7 @@ class Block:
         What the operator does at the stop before the block.
     stage : int
         Of wire, which stage of the circuit is laid, from 0; of a cover, the stage that is laid next
-        on top of it; of marks, 0.
+        on top of it; of marks and stripes, 0.
     """
 
     kind: BlockKind

@@ -26,6 +26,8 @@ _SMALLEST_MM = 1e-9
 _OPEN_MM = 2 * ROUNDING_MM
 """Distances that differ by less may be equal before they are rounded."""
 
+_NARROWEST_MM = 0.3 - 2 * ROUNDING_MM
+
 _FEWEST = 2 * POINTS_PER_LOCK + 3
 
 Numbers = NDArray[np.float64]
@@ -90,10 +92,16 @@ def _cross(a: Vectors, b: Vectors) -> Numbers:
 
 
 def _zigzags(row: Vectors) -> bool:
-    """Whether stitches turn left and right in turn, mostly."""
+    """Whether stitches turn left and right in turn, mostly, and by more than rounding makes them.
+
+    A zigzag leaves the middle between the points before and after by its width, which is at least
+    the needle's, the thinnest of which is 0.3 mm.
+    """
     step = np.diff(row, axis=0)
     turn = _cross(step[:-1], step[1:])
-    return len(turn) < 2 or float(np.mean(turn[:-1] * turn[1:] < 0)) > 0.5
+    off = np.hypot(*(step[1:] - step[:-1]).T) / 2
+    wide = float(np.median(off)) > _NARROWEST_MM
+    return len(turn) < 2 or (wide and float(np.mean(turn[:-1] * turn[1:] < 0)) > 0.5)
 
 
 def _reaching_over(needles: Vectors, earlier: STRtree) -> Flags:
@@ -151,9 +159,29 @@ def _centreline(needles: Vectors, sound: Flags) -> Vectors:
     centre, tangent = needles[sound], along[sound]
     for _ in range(_ROUNDS):
         left = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
-        centre = needles[sound] - half * side[sound, None] * left
-        tangent = _tangents(centre)
+        moved = needles[sound] - half * side[sound, None] * left
+        centre, place = _merged(moved, tangent)
+        tangent = _tangents(centre)[place]
     return centre
+
+
+def _merged(row: Vectors, tangent: Vectors) -> tuple[Vectors, NDArray[np.int64]]:
+    """Make one point of those that rounding may have exchanged along the wire.
+
+    Both ends of a stitch square over the wire tell of one place on it.
+
+    Returns
+    -------
+    array (m, 2)
+        The points.
+    array (n,)
+        Which of them each point of the row is now.
+    """
+    advance = np.sum(np.diff(row, axis=0) * (tangent[1:] + tangent[:-1]) / 2, axis=1)
+    place = np.concatenate([[0], np.cumsum(advance > _OPEN_MM)])
+    total = np.zeros((int(place[-1]) + 1, 2))
+    np.add.at(total, place, row)
+    return total / np.bincount(place)[:, None], place
 
 
 def _half_width_mm(step: Vectors, tangent: Vectors) -> float:

@@ -19,6 +19,8 @@ COMMANDS = MappingProxyType(
         "check": "Read a design back from disk and verify every file.",
         "solve": "Solve one dimensionless loop.",
         "export-evolver": "Write a loop as a datafile of Surface Evolver.",
+        "machines": "List machine profiles, or print one to start your own from.",
+        "coupon": "Make a coupon to find the settings for your wire.",
         "schema": "Print the JSON schema of specifications, for editors.",
     }
 )

@@ -18,6 +18,7 @@ from sesame_cad.electrics_data import (
 from sesame_cad.files.stitch_formats import LOSSES
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.specification import Specification
+from sesame_cad.specification.machine import MachineSection
 from sesame_cad.state import State
 from solver.equilibrium import Equilibrium
 from solver.omitted import OmittedTerm
@@ -25,6 +26,9 @@ from solver.reading import Reading
 from solver.threshold import critical_beta, critical_strain
 
 Data = dict[str, Any]
+
+STAGED = (BlockKind.WIRE, BlockKind.COVER)
+"""Kinds of blocks that belong to a stage of the wire."""
 
 FORMAT_VERSION = 2
 """Raised when a key of `design.json` changes its meaning."""
@@ -51,7 +55,8 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         "circuit": circuit_data(spec, design.pattern),
         "circuits": circuits_data(spec, design.pattern),
         "electrics": electrics_data(spec, design.pattern),
-        "stitch": stitch_data(design.pattern.plan, records),
+        "stitch": stitch_data(design.pattern.plan, records)
+        | machine_data(spec.machine, design.pattern.plan),
         "losses": {kind: list(LOSSES[kind]) for kind in spec.output.formats},
         "outline": {
             "openings": len(design.pattern.outline.openings),
@@ -161,10 +166,18 @@ def stitch_data(plan: StitchPlan, records: Records) -> Data:
         "blocks": [
             {
                 "kind": str(block.kind),
-                "stage": block.stage + 1 if block.kind is not BlockKind.MARKS else None,
+                "stage": block.stage + 1 if block.kind in STAGED else None,
                 "instruction": block.instruction,
                 "stitches": sum(len(run.needles) for run in block.runs),
             }
             for block in plan.blocks
         ],
+    }
+
+
+def machine_data(machine: MachineSection, plan: StitchPlan) -> Data:
+    """Keys of the stitch file that depend on the machine: its time, and the thread of each kind."""
+    return {
+        "sewing_time_min": round(machine.pace.plan_s(plan) / 60, 1),
+        "threads": {str(kind): one for kind, one in zip(BlockKind, machine.threads, strict=True)},
     }

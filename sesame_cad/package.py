@@ -25,7 +25,7 @@ from sesame_cad.preview import solids
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory
 from sesame_cad.state import State
-from sesame_cad.threads import thread_of
+from sesame_cad.threads import threads_of
 from sesame_cad.worksheet import worksheet
 
 Progress = Callable[[str], None]
@@ -71,13 +71,13 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
     """Every file but `design.json`, by its path in the folder."""
     spec, laid = made.spec, made.pattern
     progress("stitch files")
+    threads = threads_of(laid.plan, spec.machine)
     for name in spec.output.formats:
         if name == "dst":
-            yield f"stitch/{spec.name}.dst", write_dst(records, spec.name)
+            yield f"stitch/{spec.name}.dst", write_dst(records, spec.name, spec.dst_switches())
         else:
-            threads = [thread_of(block) for block in laid.plan.blocks]
             yield f"stitch/{spec.name}.{name}", write_embroidery(records, name, threads)
-    yield f"stitch/{spec.name}.blocks.csv", block_list_csv(laid.plan).encode()
+    yield f"stitch/{spec.name}.blocks.csv", block_list_csv(laid.plan, threads).encode()
     progress("cut lines")
     yield f"cut/{spec.name}.svg", outline_svg(laid.outline, laid.marks, spec.name).encode()
     yield f"cut/{spec.name}.dxf", outline_dxf(laid.outline, laid.marks).encode()

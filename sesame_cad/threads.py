@@ -4,47 +4,84 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from patterns.plan import Block, BlockKind
+from patterns.plan import Block, BlockKind, StitchPlan
+from sesame_cad.colour_names import colour_name, rgb
+from sesame_cad.specification.machine import MachineSection
 
-# Okabe and Ito's colours, told apart by every kind of colour vision (Color Universal Design, 2008).
-STAGES = ("#0072B2", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#8B5A2B")
-"""Of the stages of the wire; after the last the first comes again."""
+SHADES = 4
+"""So many stages of the wire after one another have colours of their own."""
 
-STAGE_NAMES = ("blue", "vermilion", "purple", "sky blue", "orange", "brown")
-COVER, COVER_NAME = "#009E73", "green"
-MARK, MARK_NAME = "#000000", "black"
+_SHADE = 0.18
+_MIDDLE = 128
 
 
 @dataclass(frozen=True, slots=True)
 class Thread:
-    """What a block is sewn with. Stitch files and pictures show it in this colour.
+    """What a block is sewn with.
 
     Attributes
     ----------
     material : str
-        What is on the spool.
+        What is laid or sewn.
     head : str
-        ``"wire"`` or ``"thread"``.
+        ``"wire"`` or ``"thread"``; where a hand leads the wire there is one head, and the presser
+        foot is named.
     needle : int
         Needle of the head, from 1.
     colour : str
         As in HTML, ``"#rrggbb"``.
-    colour_name : str
     """
 
     material: str
     head: str
     needle: int
     colour: str
-    colour_name: str
+
+    @property
+    def colour_name(self) -> str:
+        """The colour in words."""
+        return colour_name(self.colour)
+
+    @property
+    def place(self) -> str:
+        """Where the thread goes, in words."""
+        return f"{self.head} head, needle {self.needle}" if " " not in self.head else self.head
 
 
-def thread_of(block: Block) -> Thread:
-    """Give what a block is sewn with."""
-    if block.kind is BlockKind.MARKS:
-        return Thread("marking thread", "thread", 1, MARK, MARK_NAME)
-    if block.kind is BlockKind.COVER:
-        return Thread("cover thread", "thread", 2, COVER, COVER_NAME)
-    k = block.stage % len(STAGES)
-    material = f"shape-memory wire, stage {block.stage + 1}"
-    return Thread(material, "wire", 1, STAGES[k], STAGE_NAMES[k])
+def threads_of(plan: StitchPlan, machine: MachineSection) -> tuple[Thread, ...]:
+    """Give what each block is sewn with, in the colours of the machine's threads.
+
+    The thread that ties the wire is given in another shade for each stage: some machines run on
+    where a stop is a change to the same colour.
+    """
+    threads: list[Thread] = []
+    for block in plan.blocks:
+        own = _thread(block, machine)
+        if threads and threads[-1].colour == own.colour:
+            own = Thread(own.material, own.head, own.needle, shade(own.colour, SHADES))
+        threads.append(own)
+    return tuple(threads)
+
+
+def _thread(block: Block, machine: MachineSection) -> Thread:
+    marks, couching, covers, stripes = machine.threads
+    if block.kind.is_wire:
+        head = "cording foot" if machine.hand_guided else "wire"
+        material = f"shape-memory wire, stage {block.stage + 1}"
+        return Thread(material, head, 1, shade(couching, block.stage % SHADES))
+    material, needle, colour = {
+        BlockKind.MARKS: ("marking thread", 1, marks),
+        BlockKind.COVER: ("cover thread", 2, covers),
+        BlockKind.STRIPES: ("thread that does not stretch", 3, stripes),
+    }[block.kind]
+    if machine.hand_guided:
+        return Thread(material, "embroidery foot", 1, colour)
+    return Thread(material, "thread", needle, colour)
+
+
+def shade(colour: str, steps: int) -> str:
+    """Take a colour some steps nearer to black if it is light, and to white if it is dark."""
+    parts = rgb(colour)
+    goal = 0 if sum(parts) > 3 * _MIDDLE else 255
+    mixed = (round(part + (goal - part) * _SHADE * steps) for part in parts)
+    return "#" + "".join(f"{part:02X}" for part in mixed)

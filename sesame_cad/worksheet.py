@@ -12,29 +12,9 @@ from patterns.plan import UNITS_PER_MM, Block
 from patterns.records import Command, Records
 from sesame_cad.electrics_data import circuit_resistances_ohm
 from sesame_cad.pipeline import Design, extent_mm
-from sesame_cad.threads import Thread, thread_of
+from sesame_cad.threads import Thread, threads_of
 
 Rows = tuple[tuple[str, str], ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Pace:
-    """How fast the work goes; assumptions for the estimate of time, not properties of a machine.
-
-    Attributes
-    ----------
-    stitches_per_minute : float
-        Speed of the machine.
-    seconds_per_stop : float
-        What the operator takes for a stop.
-    """
-
-    stitches_per_minute: float = 600.0
-    seconds_per_stop: float = 120.0
-
-    def minutes(self, stitches: int, stops: int) -> float:
-        """Time for some stitches and stops."""
-        return stitches / self.stitches_per_minute + stops * self.seconds_per_stop / 60
 
 
 @dataclass(frozen=True)
@@ -82,10 +62,7 @@ class Worksheet:
     notes: str
 
 
-_DEFAULT_PACE = Pace()
-
-
-def worksheet(design: Design, records: Records, pace: Pace = _DEFAULT_PACE) -> Worksheet:
+def worksheet(design: Design, records: Records) -> Worksheet:
     """Collect what the operator needs.
 
     Parameters
@@ -95,15 +72,15 @@ def worksheet(design: Design, records: Records, pace: Pace = _DEFAULT_PACE) -> W
     """
     return Worksheet(
         design.spec.name,
-        (*_job(design, records, pace), *_sizes(design), *_lengths(design)),
+        (*_job(design, records), *_sizes(design), *_lengths(design)),
         tuple(_materials(design)),
-        tuple(_blocks(design, pace)),
+        tuple(_blocks(design)),
         design.spec.output.notes,
     )
 
 
-def _job(design: Design, records: Records, pace: Pace) -> Iterator[tuple[str, str]]:
-    spec, plan = design.spec, design.pattern.plan
+def _job(design: Design, records: Records) -> Iterator[tuple[str, str]]:
+    spec, plan, pace = design.spec, design.pattern.plan, design.spec.machine.pace
     stitches = int((records.command == Command.STITCH).sum())
     stops = int((records.command == Command.STOP).sum())
     yield "stitch files", ", ".join(f"{spec.name}.{kind}" for kind in spec.output.formats)
@@ -112,8 +89,8 @@ def _job(design: Design, records: Records, pace: Pace) -> Iterator[tuple[str, st
     yield "stitches", f"{stitches} in {len(plan.blocks)} blocks, {stops} stops"
     yield (
         "time, estimated",
-        f"{ceil(pace.minutes(stitches, stops))} min, at {pace.stitches_per_minute:g} stitches a "
-        f"minute and {pace.seconds_per_stop:g} s a stop",
+        f"{ceil(pace.plan_s(plan) / 60)} min, at {pace.thread_spm:g} stitches a minute, "
+        f"{pace.wire_spm:g} with wire, and {pace.stop_time_s:g} s before each block",
     )
 
 
@@ -132,9 +109,9 @@ def _sizes(design: Design) -> Iterator[tuple[str, str]]:
 def _lengths(design: Design) -> Iterator[tuple[str, str]]:
     yield from _wires(design)
     lengths: dict[str, float] = {}
-    for block in design.pattern.plan.blocks:
-        thread = thread_of(block)
-        spool = "thread that ties the wire" if thread.head == "wire" else thread.material
+    plan = design.pattern.plan
+    for block, thread in zip(plan.blocks, threads_of(plan, design.spec.machine), strict=True):
+        spool = "thread that ties the wire" if block.kind.is_wire else thread.material
         lengths[spool] = lengths.get(spool, 0.0) + _sewn_mm(block)
     for spool, length in lengths.items():
         yield spool, f"{length / 1000:.2f} m from needle point to needle point"
@@ -172,11 +149,12 @@ def _materials(design: Design) -> Iterator[tuple[str, str]]:
     yield "wire's modulus", f"{wire.modulus_cold_GPa:g} GPa cold, {wire.modulus_hot_GPa:g} GPa hot"
 
 
-def _blocks(design: Design, pace: Pace) -> Iterator[BlockRow]:
-    for number, block in enumerate(design.pattern.plan.blocks, start=1):
+def _blocks(design: Design) -> Iterator[BlockRow]:
+    plan, machine = design.pattern.plan, design.spec.machine
+    for k, (block, thread) in enumerate(zip(plan.blocks, threads_of(plan, machine), strict=True)):
         stitches = sum(len(run.needles) for run in block.runs)
-        minutes = pace.minutes(stitches, int(number > 1))
-        yield BlockRow(number, thread_of(block), stitches, minutes, block.instruction)
+        minutes = machine.pace.block_s(block) / 60
+        yield BlockRow(k + 1, thread, stitches, minutes, block.instruction)
 
 
 def _size(width_mm: float, height_mm: float) -> str:

@@ -1,4 +1,4 @@
-"""Everything is sewn inside the hoop."""
+"""Everything is sewn inside the field of the hoop."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _ROUNDOFF_MM = 1e-9
 
 
 def check_hoop(subject: Subject) -> list[Violation]:
-    """Every needle point, and every place to which the machine jumps, lies inside the hoop."""
+    """Every needle point, and every place to which the machine jumps, lies in the field."""
     faults: list[Violation] = []
     for i, block in enumerate(subject.plan.blocks):
         faults.extend(_outside(subject, i, subject.needles_mm[i], "needle point", counted=True))
@@ -30,9 +30,9 @@ def _approaches_mm(block: Block) -> Vectors:
 def _outside(
     subject: Subject, block: int, places_mm: Vectors, what: str, *, counted: bool
 ) -> list[Violation]:
-    half = np.array([subject.machine.hoop_width_mm, subject.machine.hoop_height_mm]) / 2
+    half = np.array(subject.machine.field_mm) / 2
     beyond = np.abs(places_mm) - half
-    message = f"the {what} is outside the hoop; distance from its centre along one axis"
+    message = f"the {what} is outside the hoop's field; distance from its centre along one axis"
     faults: list[Violation] = []
     for i in np.flatnonzero(beyond.max(axis=1) > _ROUNDOFF_MM):
         x, y = places_mm[i]

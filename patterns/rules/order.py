@@ -12,14 +12,14 @@ _Part = tuple[BlockKind, int]
 
 
 def check_blocks(subject: Subject) -> list[Violation]:
-    """Check for marks (if any), then the stages with a cover before each but the first, in order.
+    """Check for marks (if any), the stages with a cover before each but the first, then stripes.
 
-    Each must be there once, and nothing else; the cover before a further wire may be left out, for
-    that wire need not touch another.
+    Each must be there once, in order, and nothing else; stripes only when they are asked for. The
+    cover before a further wire may be left out, for that wire need not touch another.
     """
     circuit = subject.circuit
     parts = [(block.kind, block.stage) for block in subject.plan.blocks]
-    order = _order(len(circuit.stages))
+    order = _order(len(circuit.stages), striped=subject.stitching.stripes != "none")
     faults = [
         Violation(_RULE, f"{_name(circuit, part)} is missing: no block {part[0].value}", 0.0, 0.0)
         for part in order[1:]
@@ -43,10 +43,11 @@ def check_blocks(subject: Subject) -> list[Violation]:
     return faults
 
 
-def _order(stages: int) -> list[_Part]:
+def _order(stages: int, *, striped: bool) -> list[_Part]:
     """Everything that is sewn, in order; the marks, which need not be, first."""
     wires = [(kind, k) for k in range(stages) for kind in (BlockKind.COVER, BlockKind.WIRE)]
-    return [(BlockKind.MARKS, 0), *wires[1:]]
+    stripes = [(BlockKind.STRIPES, 0)] if striped else []
+    return [(BlockKind.MARKS, 0), *wires[1:], *stripes]
 
 
 def _name(circuit: Circuit, part: _Part) -> str:
@@ -57,6 +58,7 @@ def _name(circuit: Circuit, part: _Part) -> str:
         BlockKind.MARKS: "the registration marks",
         BlockKind.COVER: f"the cover before {name} of the wire",
         BlockKind.WIRE: f"{name} of the wire",
+        BlockKind.STRIPES: "the block of stripes",
     }
     return names[kind]
 

@@ -7,7 +7,11 @@ from patterns.machine import Machine
 from patterns.plan import StitchPlan
 from patterns.rules.bend import check_bend_radius, check_smooth_path
 from patterns.rules.clearance import check_needle_on_wire
+from patterns.rules.couching_angle import check_couching_angle
+from patterns.rules.cover_width import check_cover_width
+from patterns.rules.feed import check_feed_and_cut
 from patterns.rules.followed import check_wire_followed
+from patterns.rules.holes import check_couching_holes
 from patterns.rules.hoop import check_hoop
 from patterns.rules.insulation import check_insulation
 from patterns.rules.locks import check_locks
@@ -22,7 +26,11 @@ RULES = (
     check_runs,
     check_needle_on_wire,
     check_wire_followed,
+    check_couching_angle,
+    check_couching_holes,
+    check_feed_and_cut,
     check_insulation,
+    check_cover_width,
     check_stitch_length,
     check_locks,
     check_hoop,

@@ -14,7 +14,7 @@ from patterns.path import Vectors
 from patterns.plan import UNITS_PER_MM, Block, StitchPlan
 from patterns.stitching import ROUNDING_MM, Stitching
 from patterns.violation import Violation
-from patterns.wire_index import Indices, WireIndex
+from patterns.wire_index import Indices, Numbers, WireIndex
 
 PARTING_MM = 100.0
 """Places along all wire are counted so much farther where a new wire begins."""
@@ -43,6 +43,10 @@ class Subject:
         """
         gaps = (PARTING_MM * part for part in self.circuit.part_of_stage)
         return tuple(map(sum, zip(self.circuit.starts_mm, gaps, strict=True)))
+
+    def stage_at(self, station_mm: Numbers) -> Indices:
+        """Stage (n,) of places along all wire, counted as in ``starts_mm``."""
+        return np.maximum(np.searchsorted(self.starts_mm, station_mm, side="right") - 1, 0)
 
     @cached_property
     def wire(self) -> WireIndex:
@@ -90,7 +94,8 @@ class Subject:
     def reach_mm(self) -> float:
         """Farthest from the wire that a stitch still holds it: four half-widths of the couching."""
         thickest = self.clearance_mm(max(self.diameters_mm))
-        return 4 * (thickest + self.stitching.needle_margin_mm) + ROUNDING_MM
+        half_width = thickest + self.stitching.needle_margin_mm
+        return 4 * half_width + self.stitching.wider_by_mm + ROUNDING_MM
 
     def separation_mm(self, stage: int, other_diameter_mm: float) -> float:
         """Distance of a stage's centreline from another below which a cover must lie between."""

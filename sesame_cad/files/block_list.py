@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Sequence
 
 from patterns.plan import StitchPlan
-from sesame_cad.threads import thread_of
+from sesame_cad.threads import Thread
 
 COLUMNS = (
     "block",
@@ -25,16 +26,21 @@ COLUMNS = (
 does at the stop before the block."""
 
 
-def block_list_csv(plan: StitchPlan) -> str:
-    """List the blocks of a plan as comma-separated values (RFC 4180), with headings."""
+def block_list_csv(plan: StitchPlan, threads: Sequence[Thread]) -> str:
+    """List the blocks of a plan as comma-separated values (RFC 4180), with headings.
+
+    Parameters
+    ----------
+    threads
+        One for each block.
+    """
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(COLUMNS)
-    for number, block in enumerate(plan.blocks, start=1):
-        thread = thread_of(block)
+    for k, (block, thread) in enumerate(zip(plan.blocks, threads, strict=True)):
         writer.writerow(
             (
-                number,
+                k + 1,
                 thread.head,
                 thread.needle,
                 thread.material,

@@ -13,6 +13,7 @@ from pyembroidery import DstWriter
 from patterns.plan import Points
 from patterns.records import LARGEST_STEP, Command, Records
 from sesame_cad.errors import DesignFileError, InputError
+from sesame_cad.files.dst_switches import DstSwitches
 from sesame_cad.files.embroidery import embroidery_pattern
 
 HEADER_BYTES = 512
@@ -56,6 +57,9 @@ class DstHeader:
     end: tuple[int, int]
 
 
+PLAIN = DstSwitches()
+
+
 @dataclass(frozen=True)
 class DstFile:
     """A file as read: what it says of itself, and what it holds."""
@@ -64,13 +68,21 @@ class DstFile:
     records: Records
 
 
-def dst_header(records: Records, label: str) -> DstHeader:
-    """Sum up records for the header, with the label reduced to what the format can hold."""
+def dst_header(records: Records, label: str, switches: DstSwitches = PLAIN) -> DstHeader:
+    """Sum up records for the header, with the label reduced to what the format can hold.
+
+    Parameters
+    ----------
+    records
+        As they stand in the file: with double stops, each twice.
+    """
     low, high = _extents(records.xy)
     return DstHeader(
         label=clean_label(label),
         record_count=int(np.sum(records.command != Command.END)),
-        stop_count=int(np.sum(records.command == Command.STOP)),
+        stop_count=max(
+            int(np.sum(records.command == Command.STOP)), int(switches.refuses_zero_colours)
+        ),
         right=int(high[0]),
         left=-int(low[0]),
         up=int(high[1]),
@@ -85,7 +97,7 @@ def clean_label(label: str) -> str:
     return " ".join(printable.split())[:LABEL_CHARACTERS].rstrip()
 
 
-def write_dst(records: Records, label: str) -> bytes:
+def write_dst(records: Records, label: str, switches: DstSwitches = PLAIN) -> bytes:
     """Encode a design.
 
     The header is written here: the libraries' has +Y and -Y exchanged, takes labels of any length,
@@ -104,7 +116,9 @@ def write_dst(records: Records, label: str) -> bytes:
     ends = np.flatnonzero(records.command == Command.END)
     if list(ends) != [len(records.command) - 1]:
         raise InputError("the records do not end with their one end record")
-    header = dst_header(records, label)
+    if switches.double_stop:
+        records = _doubled_stops(records)
+    header = dst_header(records, label, switches)
     faults = _faults(records, header)
     if faults:
         raise InputError(*faults)
@@ -113,8 +127,13 @@ def write_dst(records: Records, label: str) -> bytes:
     return _header_bytes(header) + whole.getvalue()[HEADER_BYTES:]
 
 
-def decode_dst(data: bytes) -> DstFile:
+def decode_dst(data: bytes, switches: DstSwitches = PLAIN) -> DstFile:
     """Decode a design and check it against its own header.
+
+    Parameters
+    ----------
+    switches
+        What it was written with. Stops that stand there twice are then given once.
 
     Raises
     ------
@@ -132,8 +151,22 @@ def decode_dst(data: bytes) -> DstFile:
         )
     header = _read_header(data[:HEADER_BYTES])
     records = _read_records(data[HEADER_BYTES:])
-    _check_header(header, dst_header(records, header.label))
-    return DstFile(header, records)
+    _check_header(header, dst_header(records, header.label, switches))
+    return DstFile(header, _single_stops(records) if switches.double_stop else records)
+
+
+def _doubled_stops(records: Records) -> Records:
+    times = np.where(records.command == Command.STOP, 2, 1)
+    return Records(np.repeat(records.command, times), np.repeat(records.xy, times, axis=0))
+
+
+def _single_stops(records: Records) -> Records:
+    """Leave out the second stop of every pair."""
+    stops = np.flatnonzero(records.command == Command.STOP)
+    first, second = stops[::2], stops[1::2]
+    if len(first) != len(second) or np.any(second - first != 1):
+        raise DesignFileError("a stop of the DST file stands alone; the machine wants two in a row")
+    return Records(np.delete(records.command, second), np.delete(records.xy, second, axis=0))
 
 
 def _extents(xy: Points) -> tuple[Points, Points]:

@@ -12,6 +12,7 @@ from patterns.circuit import Circuit, Diameters
 from patterns.loop_order import loops_in_order
 from patterns.path import Arc, Piece, WirePath
 from patterns.plan import UNITS_PER_MM, Block, Points
+from sesame_cad.drawing_colours import MARK, block_colour, stage_colour
 from sesame_cad.files.sheet import Sheet, lay_out
 from sesame_cad.files.svg_page import (
     add_layer,
@@ -23,7 +24,6 @@ from sesame_cad.files.svg_page import (
     svg_text,
 )
 from sesame_cad.pipeline import Pattern
-from sesame_cad.threads import MARK, STAGES, thread_of
 
 _LINE = "fill:none;stroke-linejoin:round;stroke-width:"
 _LABEL = "stroke:none;font-family:sans-serif;text-anchor:middle;"
@@ -58,20 +58,16 @@ def draw_plan(
     add_layer(root, "MARKS", f"{_LINE}{_CUT_MM};stroke:{MARK}", strokes)
     diameters_mm = laid.circuit.of_stages(wire_diameter_mm)
     for k, stage in enumerate(laid.circuit.stages):
-        style = f"{_LINE}{number(diameters_mm[k])};stroke-opacity:0.5;stroke:{_stage_colour(k)}"
+        style = f"{_LINE}{number(diameters_mm[k])};stroke-opacity:0.5;stroke:{stage_colour(k)}"
         add_layer(root, f"WIRE-{k + 1}", style, [_wire_path(sheet, stage)])
     for k, block in enumerate(laid.plan.blocks, start=1):
-        colour = thread_of(block).colour
+        colour = block_colour(block)
         style = f"{_LINE}{_STITCH_MM};stroke:{colour}"
         add_layer(root, f"STITCHES-{k}", style, [_stitches(sheet, block)])
         dots = f"{_LINE}{_NEEDLE_MM};stroke-linecap:round;stroke:{colour}"
         add_layer(root, f"NEEDLES-{k}", dots, [_needles(sheet, block)])
     _add_labels(root, sheet, laid.circuit)
     add_reference(root, sheet)
-
-
-def _stage_colour(stage: int) -> str:
-    return STAGES[stage % len(STAGES)]
 
 
 def _wire_path(sheet: Sheet, path: WirePath) -> str:
@@ -135,10 +131,14 @@ def _add_labels(root: ElementTree.Element, sheet: Sheet, circuit: Circuit) -> No
 
 def _ends(circuit: Circuit) -> Iterator[tuple[str, np.ndarray, str]]:
     """Labels of the terminals, beyond the wire, and of the stages, beside their first points."""
-    last = len(circuit.stages) - 1
+    several = len(circuit.parts) > 1
     for k, stage in enumerate(circuit.stages):
+        of = f" of {circuit.part_names[circuit.part_of_stage[k]]}" if several else ""
+        begins = circuit.begins_wire(k)
         place, along = stage.at(0.0)
-        away = along[:, ::-1] * (1, -1) if k else -along
-        yield f"stage {k + 1}" if k else "start", place + _ASIDE_MM * away, _stage_colour(k)
-    place, along = circuit.stages[last].at(circuit.stages[last].length_mm)
-    yield "end", place + _ASIDE_MM * along, _stage_colour(last)
+        away = -along if begins else along[:, ::-1] * (1, -1)
+        text = f"start{of}" if begins else circuit.stage_name(k)
+        yield text, place + _ASIDE_MM * away, stage_colour(k)
+        if circuit.ends_wire(k):
+            place, along = stage.at(stage.length_mm)
+            yield f"end{of}", place + _ASIDE_MM * along, stage_colour(k)

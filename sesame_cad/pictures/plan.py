@@ -14,8 +14,8 @@ from patterns.outline import Outline
 from patterns.path import WirePath
 from patterns.plan import UNITS_PER_MM, BlockKind, StitchPlan
 from patterns.registration import Mark
+from sesame_cad.drawing_colours import COVER, MARK, STRIPE, stage_colour
 from sesame_cad.pictures.canvas import png_bytes
-from sesame_cad.threads import COVER, MARK, STAGES
 
 Vectors = NDArray[np.float64]
 
@@ -45,18 +45,15 @@ def plan_figure(
     axes = figure.add_subplot()
     _draw_cut(axes, outline, marks)
     _draw_needles(axes, plan)
-    _draw_covers(axes, plan)
+    _draw_thread(axes, plan, BlockKind.COVER, COVER, "thread cover")
+    _draw_thread(axes, plan, BlockKind.STRIPES, STRIPE, "stripe")
     arrow_mm = _arrow_mm(circuit, outline)
     for k, stage in enumerate(circuit.stages):
-        _draw_wire(axes, stage, _colour(k), f"wire, stage {k + 1}", arrow_mm)
+        _draw_wire(axes, stage, stage_colour(k), f"wire, {circuit.stage_name(k)}", arrow_mm)
     _draw_numbers(axes, circuit)
     _draw_ends(axes, circuit)
     _finish(axes)
     return figure
-
-
-def _colour(stage: int) -> str:
-    return STAGES[stage % len(STAGES)]
 
 
 def _figure_size(outline: Outline, marks: tuple[Mark, ...]) -> tuple[float, float]:
@@ -93,16 +90,15 @@ def _draw_needles(axes: Axes, plan: StitchPlan) -> None:
         dots.set_markeredgewidth(0)
 
 
-def _draw_covers(axes: Axes, plan: StitchPlan) -> None:
+def _draw_thread(axes: Axes, plan: StitchPlan, kind: BlockKind, colour: str, label: str) -> None:
     runs = [
         run.needles / UNITS_PER_MM
         for block in plan.blocks
-        if block.kind is BlockKind.COVER
+        if block.kind is kind
         for run in block.runs
     ]
     if runs:
-        label = "thread cover"
-        lines = LineCollection(runs, colors=COVER, linewidths=1.4, label=label, zorder=4)
+        lines = LineCollection(runs, colors=colour, linewidths=1.4, label=label, zorder=4)
         axes.add_collection(lines)
 
 
@@ -137,10 +133,15 @@ def _draw_numbers(axes: Axes, circuit: Circuit) -> None:
 def _draw_ends(axes: Axes, circuit: Circuit) -> None:
     begins = [circuit.begins_wire(k) for k in range(len(circuit.stages))]
     ends = [
-        (path, 0.0, "start" if begins[k] else f"stage {k + 1}", _colour(k) if begins[k] else CUT)
+        (
+            path,
+            0.0,
+            "start" if begins[k] else f"stage {k + 1}",
+            stage_colour(k) if begins[k] else CUT,
+        )
         for k, path in enumerate(circuit.stages)
     ] + [
-        (path, path.length_mm, "end", _colour(k))
+        (path, path.length_mm, "end", stage_colour(k))
         for k, path in enumerate(circuit.stages)
         if circuit.ends_wire(k)
     ]

@@ -12,10 +12,10 @@ from matplotlib.collections import LineCollection
 from numpy.typing import NDArray
 from shapely import LineString
 
+from sesame_cad.drawing_colours import MARK, stage_colour
 from sesame_cad.files.sheet import CHECK_BAR_MM
 from sesame_cad.pictures.paper import MARGIN_MM, blank_page, write_text
 from sesame_cad.pipeline import Pattern
-from sesame_cad.threads import MARK, STAGES
 
 Vectors = NDArray[np.float64]
 
@@ -75,7 +75,7 @@ def template_page(laid: Pattern, name: str, size_mm: tuple[float, float]) -> Axe
 def _draw_pattern(axes: Axes, fit: _Fit, laid: Pattern) -> None:
     _draw(axes, fit, [_closed(ring) for ring in laid.outline.rings], CUT, 0.5)
     for k, stage in enumerate(laid.circuit.stages):
-        _draw(axes, fit, [stage.polyline(_CHORD_MM)], STAGES[k % len(STAGES)], 0.5)
+        _draw(axes, fit, [stage.polyline(_CHORD_MM)], stage_colour(k), 0.5)
     _draw(axes, fit, [stroke for mark in laid.marks for stroke in mark.strokes], MARK, 0.5)
 
 

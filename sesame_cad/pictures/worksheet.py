@@ -92,8 +92,8 @@ def _write_pairs(column: _Column, heading: str, rows: tuple[tuple[str, str], ...
 
 def _write_block(column: _Column, row: BlockRow) -> None:
     about = (
-        f"{row.number}  {row.thread.material} ({row.thread.colour_name})",
-        f"{row.thread.head} head, needle {row.thread.needle}",
+        f"{row.number}  {row.thread.material}",
+        f"{row.thread.place}, {row.thread.colour_name}",
         f"{row.stitches} stitches, about {ceil(row.minutes)} min",
     )
     names = [line for text in about for line in wrapped(text, _BLOCK_MM - 8.0, _TEXT_PT)]

@@ -205,9 +205,10 @@ def _small_hoop(sections: Together) -> Iterator[Fault]:
         width, height = needed_hoop_mm(sections.wire, layout, sections.stitching, sections.outline)
     except PatternError:
         return  # said when the wire is laid, after what may be wrong with the loops
+    rims = 2 * machine.hoop_rim_mm
     for keys, needed, available, loops in (
-        (_WIDTH, width, machine.hoop_width_mm, "layout.columns"),
-        (_HEIGHT, height, machine.hoop_height_mm, "layout.rows"),
+        (_WIDTH, width + rims, machine.hoop_width_mm, "layout.columns"),
+        (_HEIGHT, height + rims, machine.hoop_height_mm, "layout.rows"),
     ):
         if needed > available * (1 + ROUNDING):
             yield Fault(
@@ -240,6 +241,7 @@ _TERMINALS = ("layout", "terminals")
 _SHAPE = ("layout", "shape")
 _WIDTH = ("machine", "hoop_width_mm")
 _HEIGHT = ("machine", "hoop_height_mm")
+_RIM = ("machine", "hoop_rim_mm")
 _PREVIEW = ("output", "preview_thickness_mm")
 
 _ARRANGING = (_ROWS, _COLUMNS, _LOOP, _DIAMETERS, _CIRCLES)
@@ -265,6 +267,7 @@ _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str
             _TERMINALS,
             _WIDTH,
             _HEIGHT,
+            _RIM,
             ("stitching", "tail_length_mm"),
             ("stitching", "mark_size_mm"),
             ("stitching", "mark_gap_mm"),

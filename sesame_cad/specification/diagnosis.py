@@ -36,11 +36,12 @@ def diagnose(data: Mapping[str, object], error: ValidationError) -> tuple[Fault,
     error
         What came of it.
     """
-    found = {fault.keys: fault for fault in _own_faults(data, error)}
+    found = {fault.keys: fault for fault in own_faults(data, error)}
     return _without_echoes((*found.values(), *_faults_between(data, found)))
 
 
-def _own_faults(data: Mapping[str, object], error: ValidationError) -> Iterator[Fault]:
+def own_faults(data: Mapping[str, object], error: ValidationError) -> Iterator[Fault]:
+    """Give the faults of single keys, in sections of which some may be left out."""
     for detail in error.errors(include_url=False):
         keys = tuple(str(part) for part in detail["loc"][:2])
         if keys:

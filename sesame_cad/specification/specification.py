@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import fields
 from typing import Annotated
 
 from pydantic import Field, model_validator
@@ -10,6 +11,7 @@ from pydantic import Field, model_validator
 from patterns.circuit import Diameters
 from patterns.machine import Machine
 from patterns.stitching import Stitching
+from sesame_cad.files.dst_switches import DstSwitches
 from sesame_cad.specification.consistency import Together, inconsistencies
 from sesame_cad.specification.fabric import FabricSection
 from sesame_cad.specification.layout import LayoutSection
@@ -98,7 +100,13 @@ class Specification(Section):
 
     def patterns_machine(self) -> Machine:
         """Give the machine as the geometry knows it."""
-        return Machine(**self.machine.model_dump(exclude={"name"}))
+        known = {field.name for field in fields(Machine)}
+        return Machine(**self.machine.model_dump(include=known))
+
+    def dst_switches(self) -> DstSwitches:
+        """Give what the machine wants of DST files."""
+        machine = self.machine
+        return DstSwitches(machine.refuses_zero_colours, machine.double_stop)
 
     def patterns_stitching(self) -> Stitching:
         """Give the stitching settings as the geometry knows them."""

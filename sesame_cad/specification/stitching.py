@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from patterns.stitching import Stitching
+from patterns.stitching import Stitching, Stripes, Underlay
 from sesame_cad.specification.section import Section
 
 _DEFAULT = Stitching()
@@ -18,6 +18,15 @@ class StitchingSection(Section):
         ge=0.5,
         le=10,
         description="the distance in mm along the wire between stitches that tie it down",
+    )
+    couching_angle_deg: float = Field(
+        default=_DEFAULT.couching_angle_deg,
+        ge=5,
+        le=90,
+        description=(
+            "the largest turn in degrees of the wire from one of these stitches to the next; "
+            "on tight bends they are closer for it"
+        ),
     )
     needle_margin_mm: float = Field(
         default=_DEFAULT.needle_margin_mm,
@@ -39,6 +48,50 @@ class StitchingSection(Section):
         ge=0,
         le=5,
         description="the gap in mm between two passes of wire below which the first is covered",
+    )
+    cover_overlap_mm: float = Field(
+        default=_DEFAULT.cover_overlap_mm,
+        ge=0,
+        le=5,
+        description=(
+            "the length in mm by which a cover goes on past that on each side, before its last "
+            "stitch"
+        ),
+    )
+    cover_margin_mm: float = Field(
+        default=_DEFAULT.cover_margin_mm,
+        ge=0.08,
+        le=2,
+        description=(
+            "the free space in mm between needle and covered wire in the plan, which makes covers "
+            "wider; at least needle_margin_mm is kept"
+        ),
+    )
+    cover_underlay: Underlay = Field(
+        default=_DEFAULT.cover_underlay,
+        description=(
+            "the stitches below a cover (a word): none, or a run along both of its edges; its "
+            "middle is the wire"
+        ),
+    )
+    stripes: Stripes = Field(
+        default=_DEFAULT.stripes,
+        description=(
+            "the direction of lines of thread that does not stretch, through the centres of the "
+            "loops, sewn last (a word)"
+        ),
+    )
+    stripe_stitch_mm: float = Field(
+        default=_DEFAULT.stripe_stitch_mm,
+        ge=1,
+        le=5,
+        description="the length in mm of the longest stitch of these lines, but over wire",
+    )
+    stripe_passes: int = Field(
+        default=_DEFAULT.stripe_passes,
+        ge=1,
+        le=2,
+        description="how often these lines are sewn over (a count): once, or there and back",
     )
     lock_length_mm: float = Field(
         default=_DEFAULT.lock_length_mm,

@@ -155,7 +155,13 @@ def test_an_interval_of_nothing_is_refused():
 
 def test_couching_longer_than_a_stitch_is_refused():
     with pytest.raises(PatternError, match="shorter couching interval"):
-        plan_of(1, 1, 60, WIRE, stitching=replace(STITCHING, couching_interval_mm=15.0))
+        plan_of(
+            1,
+            1,
+            60,
+            WIRE,
+            stitching=replace(STITCHING, couching_interval_mm=40.0, couching_angle_deg=180.0),
+        )
 
 
 def test_plans_repeat():

@@ -15,6 +15,7 @@ from pystitch import DstReader
 from patterns.records import Command, Records
 from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.dst import clean_label, decode_dst, write_dst
+from sesame_cad.files.dst_switches import DstSwitches
 
 QUICK = settings(deadline=None, max_examples=60)
 MOVES = st.tuples(
@@ -216,3 +217,41 @@ def test_bytes_after_the_end_and_unknown_records_are_refused():
         decode_dst(whole + b"abc")
     with pytest.raises(DesignFileError, match="no known kind"):
         decode_dst(whole[:512] + b"\x00\x00\x40" + whole[512:])
+
+
+DEMANDING = DstSwitches(refuses_zero_colours=True, double_stop=True)
+
+
+@QUICK
+@given(st.lists(MOVES, max_size=60), st.booleans(), st.booleans())
+def test_switches_come_back_as_the_plain_records(moves, one_colour, double):
+    """Stops side by side are what another stop would be: plans have none."""
+    stop = Command.STOP
+    apart = [
+        move
+        for before, move in pairwise([(stop, 0, 0), *moves])
+        if not before[0] is move[0] is stop
+    ]
+    records, switches = records_of(apart), DstSwitches(one_colour, double)
+    data = write_dst(records, "x", switches)
+    assert_same(decode_dst(data, switches).records, records)
+    stops = int(np.sum(records.command == Command.STOP))
+    assert sum(data[k] == 0xC3 for k in range(514, len(data), 3)) == stops * (1 + double)
+    assert int(header_of(data)["CO"]) == max(stops * (1 + double), int(one_colour))
+
+
+def test_no_colour_change_is_told_as_one_and_read_only_by_who_asked_for_it():
+    data = write_dst(walk((1, 1)), "x", DEMANDING)
+    assert header_of(data)["CO"] == "  1"
+    with pytest.raises(DesignFileError, match="stop_count is 1"):
+        decode_dst(data)
+    with pytest.raises(DesignFileError, match="stop_count is 0"):
+        decode_dst(write_dst(walk((1, 1)), "x"), DEMANDING)
+
+
+def test_a_stop_alone_is_none_of_two():
+    moves = [(Command.STITCH, 1, 1), (Command.STOP, 0, 0), (Command.STITCH, 1, 1)]
+    with pytest.raises(DesignFileError, match="stands alone"):
+        decode_dst(write_dst(records_of(moves), "x"), DEMANDING)
+    with pytest.raises(DesignFileError, match="stands alone"):
+        decode_dst(write_dst(records_of(moves * 2), "x"), DEMANDING)

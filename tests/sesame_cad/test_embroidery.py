@@ -36,7 +36,7 @@ def records_of(moves) -> Records:
 
 def threads_of(records: Records) -> list[Thread]:
     stops = int(np.sum(records.command == "stop"))
-    return [Thread("thread", "thread", 1, f"#0000{k % 256:02x}", "blue") for k in range(stops + 1)]
+    return [Thread("thread", "thread", 1, f"#0000{k % 256:02x}") for k in range(stops + 1)]
 
 
 def library_rows(data: bytes, kind: str) -> list[tuple[str, int, int]]:

@@ -21,7 +21,7 @@ from sesame_cad.files.dst import clean_label, decode_dst, write_dst
 from sesame_cad.files.stitch_formats import FORMATS, write_embroidery
 from sesame_cad.pipeline import pattern
 from sesame_cad.specification import specification_from
-from sesame_cad.threads import thread_of
+from sesame_cad.threads import threads_of
 
 READERS = {
     "dst": pystitch.DstReader,
@@ -100,7 +100,7 @@ def assert_comes_back(given_sections, label):
         return
     outcomes["sewn"] += 1
     records = plan_records(plan, spec.patterns_machine())
-    threads = [thread_of(block) for block in plan.blocks]
+    threads = threads_of(plan, spec.machine)
     files = {kind: write_embroidery(records, kind, threads) for kind in FORMATS}
     files["dst"] = write_dst(records, label)
     decoded = decode_dst(files["dst"])

@@ -135,6 +135,6 @@ def test_a_long_file_is_decoded_in_little_memory():
 
 
 def test_a_huge_file_is_not_read(loop, monkeypatch):
-    monkeypatch.setattr("sesame_cad.verification.MOST_BYTES", len(loop[1]) + 10)
+    monkeypatch.setattr("sesame_cad.reading.MOST_BYTES", len(loop[1]) + 10)
     (fault,) = (f for f in verified(loop[0]).faults if f.startswith("worksheet"))
     assert "more than" in fault

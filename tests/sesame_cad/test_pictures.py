@@ -14,10 +14,10 @@ from patterns.outline import Outline
 from patterns.path import Arc, Line, WirePath
 from patterns.plan import Block, BlockKind, Run, StitchPlan
 from patterns.registration import Mark
+from sesame_cad.drawing_colours import COVER, STAGES
 from sesame_cad.pictures.plan import plan_picture
 from sesame_cad.pictures.rendering import View, fabric_patch, projected_bounds, render
 from sesame_cad.pictures.shapes import ShapeView, shapes_picture
-from sesame_cad.threads import COVER, STAGES
 
 
 def pixels(data):

@@ -15,6 +15,8 @@ from sesame_cad.files.plan_svg import plan_svg
 from sesame_cad.files.sheet import lay_out
 from sesame_cad.pipeline import pattern
 from sesame_cad.specification import specification_from
+from sesame_cad.specification.machine import MachineSection
+from sesame_cad.threads import threads_of
 
 WIRE_MM = 0.5
 
@@ -96,10 +98,11 @@ def test_names_with_marks_of_the_language_do_no_harm(laid):
 
 def test_the_list_of_blocks_holds_a_line_a_block(laid):
     plan = replace(laid.plan, blocks=(replace(laid.plan.blocks[0], instruction='a "b", c\nd'),))
-    (row,) = csv.DictReader(io.StringIO(block_list_csv(plan)))
+    (row,) = csv.DictReader(io.StringIO(block_list_csv(plan, threads_of(plan, MachineSection()))))
     assert tuple(row) == COLUMNS
     assert row["instruction"] == 'a "b", c\nd'
-    rows = [*csv.DictReader(io.StringIO(block_list_csv(laid.plan)))]
+    listed = block_list_csv(laid.plan, threads_of(laid.plan, MachineSection()))
+    rows = [*csv.DictReader(io.StringIO(listed))]
     assert [row["block"] for row in rows] == ["1", "2", "3", "4"]
     assert [row["head"] for row in rows] == ["thread", "wire", "thread", "wire"]
     for row, block in zip(rows, laid.plan.blocks, strict=True):

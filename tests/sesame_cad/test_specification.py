@@ -29,7 +29,13 @@ LARGE = {
     "wire": {"diameter_mm": 0.5},
     "layout": {"rows": 4, "columns": 4, "loop_diameter_mm": 50},
 }
-BOUND_TO_OTHERS = {"loop_diameter_mm", "hoop_width_mm", "hoop_height_mm", "preview_thickness_mm"}
+BOUND_TO_OTHERS = {
+    "loop_diameter_mm",
+    "hoop_width_mm",
+    "hoop_height_mm",
+    "hoop_rim_mm",
+    "preview_thickness_mm",
+}
 
 
 def numbers(field):
@@ -109,7 +115,13 @@ def test_defaults_are_those_of_table_1_and_of_the_geometry():
 
 
 def test_conversions_carry_every_value():
-    stitching = {key: value * 1.1 for key, value in asdict(Stitching()).items()}
+    words = {"cover_underlay": "edge", "stripes": "rows", "stripe_passes": 2}
+    plain = {"cover_overlap_mm": 0.2} | {
+        key: value * 1.1
+        for key, value in asdict(Stitching()).items()
+        if key not in {*words, "cover_overlap_mm"}
+    }
+    stitching = {key: (plain | words)[key] for key in asdict(Stitching())}
     machine = {
         "hoop_width_mm": 420.0,
         "hoop_height_mm": 410.0,
@@ -117,6 +129,10 @@ def test_conversions_carry_every_value():
         "longest_stitch_mm": 11.0,
         "shortest_stitch_mm": 0.4,
         "jumps_per_trim": 5,
+        "hoop_rim_mm": 1.0,
+        "couching": "centreline",
+        "swing_mm": 3.0,
+        "hand_guided": True,
     }
     specification = specification_from({**LARGE, "stitching": stitching, "machine": machine}, "x")
     assert asdict(specification.patterns_stitching()) == stitching
@@ -259,6 +275,8 @@ UNITS = {
     "V": "in V",
     "A": "in A",
     "deg": "degrees",
+    "spm": "stitches per minute",
+    "s": "seconds",
 }
 UNITLESS = ("no unit", "a count", "a word", "words", "a text", "true or false")
 

@@ -17,7 +17,7 @@ from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.stitch_formats import FORMATS, LOSSES, write_embroidery
 from sesame_cad.pipeline import pattern
 from sesame_cad.specification import load_specification
-from sesame_cad.threads import thread_of
+from sesame_cad.threads import threads_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "large-array.toml"
 COLOURED = ["pes", "jef", "vp3"]
@@ -37,7 +37,7 @@ def sewn():
     spec = load_specification(EXAMPLE)
     plan = pattern(spec).plan
     records = plan_records(plan, spec.patterns_machine())
-    return records, [thread_of(block) for block in plan.blocks]
+    return records, threads_of(plan, spec.machine)
 
 
 def read_by_library(data, kind):

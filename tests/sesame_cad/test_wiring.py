@@ -82,7 +82,7 @@ def test_a_design_whose_stitches_short_is_refused_and_found(monkeypatch):
         for block in blocks
     )
     records = plan_records(StitchPlan(bare), spec.patterns_machine())
-    reading = verification._Reading(Path(), {}, made)
+    reading = verification.Reading(Path(), {}, made)
     monkeypatch.setitem(vars(reading), "dst", records)
     assert any("net: short circuit" in fault for fault in verification._rule_faults(reading))
     monkeypatch.setattr(pipeline, "stitch_plan", lambda *_: StitchPlan(bare))

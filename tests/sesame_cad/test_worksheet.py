@@ -16,7 +16,7 @@ from sesame_cad.pictures.paper import MARGIN_MM, PAPERS_MM, printable, text_widt
 from sesame_cad.pictures.worksheet import worksheet_pdf
 from sesame_cad.pipeline import design
 from sesame_cad.specification import specification_from
-from sesame_cad.worksheet import Pace, worksheet
+from sesame_cad.worksheet import worksheet
 
 MM = 25.4 / 72
 NOTES = "Blue film. $5 a piece, 10 Ω.\nSecond line."
@@ -36,9 +36,9 @@ def small():
     return made()
 
 
-def sheet_of(found, pace=None):
+def sheet_of(found):
     records = plan_records(found.pattern.plan, found.spec.patterns_machine())
-    return worksheet(found, records, *([pace] if pace else []))
+    return worksheet(found, records)
 
 
 def pages(found, paper="a4", sheet=None):
@@ -94,11 +94,18 @@ def test_words(small, printed):
 
 
 def test_numbers_follow_from_the_plan(small):
-    facts = dict(sheet_of(small, Pace(100, 30)).facts)
+    own = {"speed_spm": 100.0, "wire_speed_spm": 50.0, "stop_time_s": 30.0}
+    machine = small.spec.machine.model_copy(update=own)
+    slow = replace(small, spec=small.spec.model_copy(update={"machine": machine}))
+    sheet = sheet_of(slow)
+    facts = dict(sheet.facts)
     plan, circuit = small.pattern.plan, small.pattern.circuit
     stitches = sum(len(run.needles) for block in plan.blocks for run in block.runs)
     assert facts["stitches"] == f"{stitches} in 4 blocks, 3 stops"
-    assert facts["time, estimated"].startswith(f"{int(np.ceil(stitches / 100 + 1.5))} min, at 100")
+    laying = sum(len(run.needles) for k in (1, 3) for run in plan.blocks[k].runs)
+    minutes = (stitches + laying) / 100 + 4 * 0.5
+    assert facts["time, estimated"].startswith(f"{int(np.ceil(minutes))} min, at 100")
+    assert sum(row.minutes for row in sheet.blocks) == pytest.approx(minutes)
     assert f"{np.ceil(circuit.wire_length_mm):.0f} mm of 0.5 mm" in facts["wire to load"]
     covers = [run.needles / 10 for run in plan.blocks[2].runs]
     way = sum(np.hypot(*np.diff(run, axis=0).T).sum() for run in covers)

@@ -1,0 +1,166 @@
+"""Every design rule in words: for the manual, and for whoever asks what a violation means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class RuleNote:
+    """A rule in words.
+
+    Attributes
+    ----------
+    name : str
+        As violations give it.
+    checks : str
+        What must hold.
+    limit : str
+        The limit and where it comes from.
+    keys : tuple of str
+        Keys of a specification that move the limit, or mend the fault.
+    """
+
+    name: str
+    checks: str
+    limit: str
+    keys: tuple[str, ...]
+
+
+CATALOGUE = (
+    RuleNote(
+        "blocks",
+        "marks, stages of the wire, covers and stripes are sewn once each and in order, a stop "
+        "between two of them",
+        "the circuit's own order",
+        ("stitching.stripes",),
+    ),
+    RuleNote(
+        "runs",
+        "no block is empty; inside a run of wire the machine neither jumps nor trims",
+        "one run a stage",
+        ("machine.jumps_per_trim",),
+    ),
+    RuleNote(
+        "needle-on-wire",
+        "every needle point, those of locks too, misses its own wire and all wire laid before; "
+        "marks miss all wire; of a swinging head both needle points do",
+        "half the wire and half the needle",
+        (
+            "wire.diameter_mm",
+            "machine.needle_diameter_mm",
+            "machine.swing_mm",
+            "stitching.needle_margin_mm",
+        ),
+    ),
+    RuleNote(
+        "wire-followed",
+        "stitches cross their wire, left and right in turn, in order and from end to end (with a "
+        "swinging head: lie on it), none too far from the next",
+        "the couching interval",
+        ("stitching.couching_interval_mm", "machine.couching"),
+    ),
+    RuleNote(
+        "couching-angle",
+        "on bends the wire turns little from one stitch to the next",
+        "the couching angle; a chord of it is 1.5 % of the radius off the bend at 20 degrees",
+        ("stitching.couching_angle_deg",),
+    ),
+    RuleNote(
+        "couching-holes",
+        "two holes after one another on one side of the wire do not run together",
+        "a needle's diameter apart",
+        ("machine.needle_diameter_mm", "stitching.couching_interval_mm"),
+    ),
+    RuleNote(
+        "feed-and-cut",
+        "the wire starts and ends straight, and nothing is sewn over its ends",
+        "10 mm of free wire",
+        ("stitching.tail_length_mm",),
+    ),
+    RuleNote(
+        "insulation",
+        "where stages of the wire come near each other, satin lies between them, without a gap",
+        "wire surfaces nearer than the reach; gaps of 1.5 spacings",
+        ("stitching.cover_reach_mm", "stitching.cover_spacing_mm"),
+    ),
+    RuleNote(
+        "net",
+        "wires and contacts that are rebuilt from the stitches alone lead from terminal to "
+        "terminal, past no short circuit, with the resistance of the design",
+        "3 % of the resistance; wires touch where their surfaces come within 0.14 mm",
+        ("stitching.cover_reach_mm", "stitching.cover_spacing_mm"),
+    ),
+    RuleNote(
+        "cover-width",
+        "covers are as much wider than the couching as they are asked to be",
+        "half the wire, half the needle and what the cover's margin exceeds the needle's by, on "
+        "either side",
+        ("stitching.cover_margin_mm", "stitching.needle_margin_mm"),
+    ),
+    RuleNote(
+        "stitch-length",
+        "no stitch is longer along an axis, or shorter, than the machine sews",
+        "12.1 mm at most, one record of a DST file; 0.3 mm at least, below which some machines "
+        "drop the next stitch",
+        ("machine.longest_stitch_mm", "machine.shortest_stitch_mm"),
+    ),
+    RuleNote(
+        "locks",
+        "every thread is locked where it begins and ends",
+        "a stitch of at most 1 mm forth and back",
+        ("stitching.lock_length_mm",),
+    ),
+    RuleNote(
+        "hoop",
+        "every needle point and every end of jumps lies in the field of the hoop",
+        "the hoop without its rim",
+        ("machine.hoop_width_mm", "machine.hoop_height_mm", "machine.hoop_rim_mm"),
+    ),
+    RuleNote(
+        "bend-radius",
+        "no bend of the wire is too tight",
+        "a number of wire diameters",
+        ("stitching.smallest_bend_diameters",),
+    ),
+    RuleNote(
+        "smooth-path",
+        "the wire has neither gap nor kink",
+        "0.001 mm and 0.06 degrees",
+        (),
+    ),
+    RuleNote(
+        "cut-ring",
+        "cut lines are rings that do not cross themselves, the outside one way round and the "
+        "openings the other",
+        "none",
+        ("outline.margin_mm",),
+    ),
+    RuleNote(
+        "cut-overlap",
+        "openings lie inside the outside line, apart from one another",
+        "none",
+        ("outline.margin_mm",),
+    ),
+    RuleNote(
+        "cut-margin",
+        "cut lines keep away from the wire",
+        "the margin",
+        ("outline.margin_mm",),
+    ),
+    RuleNote(
+        "cut-stitches",
+        "needle points, but those of marks, lie on the fabric that is kept",
+        "0.3 mm from a cut line",
+        ("outline.margin_mm",),
+    ),
+)
+
+
+def catalogue_table() -> str:
+    """Write the rules as a table in Markdown."""
+    rows = ["| rule | what it checks | limit | keys |", "|---|---|---|---|"]
+    for note in CATALOGUE:
+        keys = ", ".join(f"`{key}`" for key in note.keys) or "none"
+        rows.append(f"| `{note.name}` | {note.checks} | {note.limit} | {keys} |")
+    return "\n".join(rows)

@@ -1,0 +1,51 @@
+"""At both ends of the wire there is room to feed it and to cut it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from patterns.couching import FREE_TAIL_MM
+from patterns.path import Line, Piece
+from patterns.rules.subject import Subject
+from patterns.stitching import ROUNDING_MM
+from patterns.violation import Violation
+
+_RULE = "feed-and-cut"
+
+
+def check_feed_and_cut(subject: Subject) -> list[Violation]:
+    """Every wire starts and ends straight, with nothing sewn over its last `FREE_TAIL_MM`."""
+    circuit, faults = subject.circuit, list[Violation]()
+    for stage, path in enumerate(circuit.stages):
+        start = subject.starts_mm[stage]
+        if circuit.begins_wire(stage):
+            faults.extend(_check_end(subject, path.pieces[0], start, "starts"))
+        if circuit.ends_wire(stage):
+            end = start + path.length_mm
+            faults.extend(_check_end(subject, path.pieces[-1], end, "ends"))
+    return faults
+
+
+def _check_end(subject: Subject, tail: Piece, end_mm: float, verb: str) -> list[Violation]:
+    straight = tail.length_mm if isinstance(tail, Line) else 0.0
+    if straight < FREE_TAIL_MM:
+        x, y = subject.wire.at(np.array([end_mm]))[0].tolist()
+        message = f"the wire {verb} without a straight tail to feed and to cut: length"
+        return [Violation(_RULE, message, x, y, actual=straight, allowed=FREE_TAIL_MM)]
+    return _check_free(subject, end_mm, verb)
+
+
+def _check_free(subject: Subject, end_mm: float, verb: str) -> list[Violation]:
+    """Check that no needle point, but those of marks, lies beside the free end of the tail."""
+    message = f"the stitch leaves no free wire where it {verb}, to feed and to cut: length"
+    faults: list[Violation] = []
+    for block in sorted(set(subject.laying.values())):
+        nearest = subject.wire.nearest(subject.needles_mm[block], subject.reach_mm)
+        free = np.abs(nearest.station_mm - end_mm)
+        faults.extend(
+            subject.fault(
+                _RULE, message, block, int(i), actual=float(free[i]), allowed=FREE_TAIL_MM
+            )
+            for i in np.flatnonzero(free < FREE_TAIL_MM - 2 * ROUNDING_MM)
+        )
+    return faults

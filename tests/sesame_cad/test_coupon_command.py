@@ -1,0 +1,56 @@
+import hashlib
+import json
+
+import pytest
+
+from sesame_cad.files.dst import decode_dst
+
+
+def tree(folder):
+    return {
+        file.relative_to(folder).as_posix(): hashlib.sha256(file.read_bytes()).hexdigest()
+        for file in folder.rglob("*")
+        if file.is_file()
+    }
+
+
+def test_a_coupon_is_a_folder_that_can_be_sewn(run_command, tmp_path):
+    target = tmp_path / "it"
+    options = ["--wire-diameter", "0.3mm", "--machine", "single-needle", "--format", "exp"]
+    code, out, err = run_command(["coupon", *options, "-o", str(target)])
+    assert code == 0, err
+    assert "18 cells" in out
+    data = json.loads((target / "design.json").read_text())
+    found = tree(target)
+    found.pop("design.json")
+    assert {path: one["sha256"] for path, one in data["files"].items()} == found
+    assert set(found) == {
+        *(f"stitch/coupon.{kind}" for kind in ("dst", "exp", "blocks.csv")),
+        "pictures/coupon.png",
+    }
+    records = decode_dst((target / "stitch" / "coupon.dst").read_bytes()).records
+    assert (records.command == "stop").sum() == data["stitch"]["stops"] == 3
+    widths = [c["width_mm"] for c in data["cells"] if c["row"] == "width"]
+    assert widths == pytest.approx([1.25, 1.35, 1.45, 1.65, 1.85, 2.05])
+    again = run_command(["coupon", *options, "-o", str(target)])
+    assert again[0] == 0
+    assert json.loads((target / "design.json").read_text()) == data
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--wire-diameter", "0.3"], "has no unit"),
+        (["--wire-diameter", "0.3mm", "--machine", "lathe"], "no profile of this name"),
+        (["--wire-diameter", "0.3mm", "--format", "pdf"], "output.formats"),
+        (["--wire-diameter", "2mm", "--machine", "single-needle"], "no room for a coupon"),
+        ([], "--wire-diameter"),
+    ],
+)
+def test_what_cannot_be_leaves_nothing_behind(
+    options, said, faults_of_command, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (fault,) = faults_of_command(["coupon", *options])
+    assert said in fault
+    assert list(tmp_path.iterdir()) == []
