@@ -107,6 +107,10 @@ class Circuit:
         """Name a stage to the operator, as counted from 1."""
         return f"stage {stage + 1}"
 
+    def own_name(self, stage: int) -> str:
+        """Name a stage as counted among those of its own wire."""
+        return self.stage_name(stage).partition(" of ")[0]
+
     def of_stages(self, diameter_mm: Diameters) -> tuple[float, ...]:
         """Wire diameter of each stage."""
         if isinstance(diameter_mm, tuple):

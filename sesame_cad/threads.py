@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from patterns.plan import Block, BlockKind, StitchPlan
 from sesame_cad.colour_names import colour_name, rgb
@@ -29,18 +29,26 @@ class Thread:
     needle : int
         Needle of the head, from 1.
     colour : str
-        As in HTML, ``"#rrggbb"``.
+        What stitch files show, as in HTML, ``"#rrggbb"``.
+    spool : str, optional
+        Colour of the thread itself, where files show a shade of it.
     """
 
     material: str
     head: str
     needle: int
     colour: str
+    spool: str = ""
+
+    @property
+    def spool_colour(self) -> str:
+        """Colour of the thread itself."""
+        return self.spool or self.colour
 
     @property
     def colour_name(self) -> str:
-        """The colour in words."""
-        return colour_name(self.colour)
+        """Colour of the thread itself, in words."""
+        return colour_name(self.spool_colour)
 
     @property
     def place(self) -> str:
@@ -51,14 +59,14 @@ class Thread:
 def threads_of(plan: StitchPlan, machine: MachineSection) -> tuple[Thread, ...]:
     """Give what each block is sewn with, in the colours of the machine's threads.
 
-    The thread that ties the wire is given in another shade for each stage: some machines run on
+    The thread that ties the wire is shown in another shade for each stage: some machines run on
     where a stop is a change to the same colour.
     """
     threads: list[Thread] = []
     for block in plan.blocks:
         own = _thread(block, machine)
         if threads and threads[-1].colour == own.colour:
-            own = Thread(own.material, own.head, own.needle, shade(own.colour, SHADES))
+            own = replace(own, colour=shade(own.colour, SHADES), spool=own.spool_colour)
         threads.append(own)
     return tuple(threads)
 
@@ -68,7 +76,7 @@ def _thread(block: Block, machine: MachineSection) -> Thread:
     if block.kind.is_wire:
         head = "cording foot" if machine.hand_guided else "wire"
         material = f"shape-memory wire, stage {block.stage + 1}"
-        return Thread(material, head, 1, shade(couching, block.stage % SHADES))
+        return Thread(material, head, 1, shade(couching, block.stage % SHADES), couching)
     material, needle, colour = {
         BlockKind.MARKS: ("marking thread", 1, marks),
         BlockKind.COVER: ("cover thread", 2, covers),

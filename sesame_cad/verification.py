@@ -88,6 +88,8 @@ def _read_data(file: Path) -> Data:
         raise DesignFileError(f"cannot be read: {error}") from None
     if not isinstance(data, dict) or not isinstance(data.get("files"), dict):
         raise DesignFileError('not a design: no "files" in it')
+    if "coupon" in data:
+        raise DesignFileError("of a coupon, which is not verified; make it again to compare")
     if data.get("format") != FORMAT_VERSION:
         raise DesignFileError(
             f"format {data.get('format')!r}: this program reads format {FORMAT_VERSION}"

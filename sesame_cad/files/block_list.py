@@ -22,7 +22,8 @@ COLUMNS = (
     "stitches",
     "instruction",
 )
-"""Headings. ``block`` counts from 1; ``colour`` is as in HTML; ``instruction`` is what the operator
+"""Headings. ``block`` counts from 1; ``colour`` is that of files which hold colours, as in
+HTML; ``colour_name`` names the thread on the spool; ``instruction`` is what the operator
 does at the stop before the block."""
 
 

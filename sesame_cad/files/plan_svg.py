@@ -131,14 +131,11 @@ def _add_labels(root: ElementTree.Element, sheet: Sheet, circuit: Circuit) -> No
 
 def _ends(circuit: Circuit) -> Iterator[tuple[str, np.ndarray, str]]:
     """Labels of the terminals, beyond the wire, and of the stages, beside their first points."""
-    several = len(circuit.parts) > 1
     for k, stage in enumerate(circuit.stages):
-        of = f" of {circuit.part_names[circuit.part_of_stage[k]]}" if several else ""
         begins = circuit.begins_wire(k)
         place, along = stage.at(0.0)
         away = -along if begins else along[:, ::-1] * (1, -1)
-        text = f"start{of}" if begins else circuit.stage_name(k)
-        yield text, place + _ASIDE_MM * away, stage_colour(k)
+        yield "start" if begins else circuit.own_name(k), place + _ASIDE_MM * away, stage_colour(k)
         if circuit.ends_wire(k):
             place, along = stage.at(stage.length_mm)
-            yield f"end{of}", place + _ASIDE_MM * along, stage_colour(k)
+            yield "end", place + _ASIDE_MM * along, stage_colour(k)

@@ -136,7 +136,7 @@ def _draw_ends(axes: Axes, circuit: Circuit) -> None:
         (
             path,
             0.0,
-            "start" if begins[k] else f"stage {k + 1}",
+            "start" if begins[k] else circuit.own_name(k),
             stage_colour(k) if begins[k] else CUT,
         )
         for k, path in enumerate(circuit.stages)

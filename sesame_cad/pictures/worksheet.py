@@ -100,7 +100,9 @@ def _write_block(column: _Column, row: BlockRow) -> None:
     values = wrapped(row.instruction, column.width_mm - _BLOCK_MM, _TEXT_PT)
     axes, top = _write_beside(column, names, values, _BLOCK_MM, indent_mm=5.0)
     corner = MARGIN_MM, top - _SWATCH_MM
-    axes.add_patch(Rectangle(corner, _SWATCH_MM, _SWATCH_MM, color=row.thread.colour, linewidth=0))
+    axes.add_patch(
+        Rectangle(corner, _SWATCH_MM, _SWATCH_MM, color=row.thread.spool_colour, linewidth=0)
+    )
 
 
 def _write_beside(

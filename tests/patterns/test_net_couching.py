@@ -4,15 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from shapely import STRtree
 
 from patterns.circuit import Circuit
 from patterns.grid import square_grid
 from patterns.groups import Group
 from patterns.machine import Machine
 from patterns.net import Kind, SewnNet, sewn_net
-from patterns.plan import BlockKind, StitchPlan
+from patterns.plan import BlockKind, StitchPlan, quantise
 from patterns.rules import check_plan
 from patterns.rules.net import check_net
+from patterns.sewn_wire import sewn_strand
 from patterns.stitch_plan import stitch_plan
 from patterns.stitching import Stitching
 from patterns.tangent_switch import grid_circuit
@@ -91,3 +93,40 @@ def test_a_stitch_square_over_the_wire_is_one_place_on_it(mode: str) -> None:
             np.sum(step[:-1] * step[1:], axis=1),
         )
         assert np.abs(turn).max() < 0.3
+
+
+def test_rounding_makes_no_zigzag_of_places_on_the_wire() -> None:
+    places = np.stack([2.0 * np.arange(30), np.where(np.arange(30) % 2, 0.1, 0.0)], axis=1)
+    strand = sewn_strand(0, places, STRtree([]))
+    gaps = np.hypot(*(strand.points_mm[:, None] - places[2:-2]).transpose(2, 0, 1)).min(axis=0)
+    assert gaps.max() < 1e-9
+
+
+@pytest.mark.parametrize("stage", range(4))
+def test_of_every_wire_both_tails_are_left_free(stage: int) -> None:
+    wiring = two_wires()
+    plan = stitch_plan(wiring, Stitching(), ZIGZAG, DIAMETERS_MM, ())
+    k = next(i for i, b in enumerate(plan.blocks) if b.kind.is_wire and b.stage == stage)
+    (run,) = plan.blocks[k].runs
+    path = wiring.stages[stage]
+    at = 4.0 if wiring.begins_wire(stage) else path.length_mm - 4.0
+    point, along = path.at(at)
+    place = quantise(point + 0.7 * along[:, ::-1] * (-1, 1))
+    ends = (place, run.needles) if wiring.begins_wire(stage) else (run.needles, place)
+    longer = replace(plan.blocks[k], runs=(replace(run, needles=np.concatenate(ends)),))
+    spoilt = StitchPlan((*plan.blocks[:k], longer, *plan.blocks[k + 1 :]))
+    faults = check_plan(wiring, spoilt, ZIGZAG, Stitching(), DIAMETERS_MM)
+    free = [fault.actual for fault in faults if fault.rule == "feed-and-cut"]
+    assert free == [pytest.approx(4.0, abs=0.1)]
+
+
+def test_covers_of_either_wire_are_as_wide_as_asked() -> None:
+    wiring = two_wires()
+    plan = stitch_plan(wiring, Stitching(), ZIGZAG, DIAMETERS_MM, ())
+    covers = [k for k, b in enumerate(plan.blocks) if b.kind is BlockKind.COVER]
+    wide = Stitching(cover_margin_mm=0.3)
+    faults = check_plan(wiring, plan, ZIGZAG, wide, DIAMETERS_MM)
+    assert {fault.rule for fault in faults} == {"cover-width"}
+    assert {fault.block for fault in faults} == set(covers)
+    allowed = {round(fault.allowed, 6) for fault in faults}
+    assert allowed == {round((one + 0.75) / 2 + 0.2, 6) for one in DIAMETERS_MM}

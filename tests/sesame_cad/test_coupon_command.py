@@ -32,6 +32,11 @@ def test_a_coupon_is_a_folder_that_can_be_sewn(run_command, tmp_path):
     assert (records.command == "stop").sum() == data["stitch"]["stops"] == 3
     widths = [c["width_mm"] for c in data["cells"] if c["row"] == "width"]
     assert widths == pytest.approx([1.25, 1.35, 1.45, 1.65, 1.85, 2.05])
+    code, out, _ = run_command(["check", str(target)])
+    assert (code, out) == (
+        1,
+        "design.json: of a coupon, which is not verified; make it again to compare\n",
+    )
     again = run_command(["coupon", *options, "-o", str(target)])
     assert again[0] == 0
     assert json.loads((target / "design.json").read_text()) == data
