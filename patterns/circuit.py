@@ -161,7 +161,7 @@ class Circuit:
     def smallest_radius_mm(self) -> float:
         """Smallest bend radius of the wire, on a loop that of the ellipse itself."""
         laid = min(stage.smallest_radius_mm for stage in self.stages)
-        return min(laid, *(loop.smallest_radius_mm for loop in self.layout.loops))
+        return min([laid, *(loop.smallest_radius_mm for loop in self.layout.loops)])
 
     @property
     def closed(self) -> bool:
