@@ -90,11 +90,14 @@ def _refined(
     while True:
         found = _solved(scene, refinement, field=field, lenient=lenient)
         field = found.tension_field
-        if add_twist and lacks_twist(found):
-            scene, field = twisted(scene, ROUND_WIRE_TWIST_RATIO), False
-            contact = _InContact(scene)
-            continue
         found = contact.solved(found, refinement, lenient=lenient)
+        # where a shape passes through itself its writhe jumps and tells nothing
+        if add_twist and not found.meets_itself and lacks_twist(found):
+            with_twist = twisted(scene, ROUND_WIRE_TWIST_RATIO)
+            try:
+                return _refined(with_twist, tolerance, lenient=lenient, add_twist=False)
+            except NotConvergedError:
+                add_twist = False  # the account of what is left out tells the twist
         _check_converged(found, lenient=lenient)
         # two coarse meshes may agree by chance
         told = refinement > _COARSEST_ARRAY and _mesh_error(found) <= tolerance

@@ -2,11 +2,13 @@
 
 import pytest
 
-from solver.checks import CONTACT
+from solver.checks import CONTACT, TWIST
 from solver.errors import NotConvergedError
 from solver.ladder import meshed
 from solver.ladder.choose import solve_scene
 from solver.ladder.fidelity import Fidelity
+from solver.mesh.array_mesh import Between
+from solver.mesh.scene import ArrayScene
 from solver.scene import LoopScene
 
 CLOSED = LoopScene(2.0, 0.0145, 0.3)
@@ -35,3 +37,34 @@ def test_who_asks_for_the_shape_nevertheless_is_told_what_it_lacks(monkeypatch):
 def test_a_loop_that_meets_itself_in_the_smooth_basis_is_refused_there():
     with pytest.raises(NotConvergedError):
         solve_scene(CLOSED, fidelity=Fidelity.COMPACT)
+
+
+WRITHING = LoopScene(0.3, 0.0225, 0.3, axis_ratio=1.5)
+
+
+def test_twist_is_added_where_the_shape_without_it_writhes():
+    answer = meshed.by_mesh(WRITHING, "tried", 0.05, lenient=False, add_twist=True)
+    assert "wire twist" in answer.terms
+    assert answer.reason == f"tried; {meshed.TWIST_ADDED}"
+    assert answer.equilibrium.scene.twist_ratio > 0
+
+
+def test_where_no_shape_with_twist_is_found_it_is_left_out_and_told(monkeypatch):
+    solve = meshed.solve_on_mesh
+
+    def refusing(scene, refinement, **options):
+        if scene.twist_ratio > 0:
+            raise NotConvergedError("with twist")
+        return solve(scene, refinement, **options)
+
+    monkeypatch.setattr(meshed, "solve_on_mesh", refusing)
+    answer = meshed.by_mesh(WRITHING, "tried", 0.05, lenient=False, add_twist=True)
+    assert answer.reason == "tried"
+    assert next(left for left in answer.omitted if left.term == TWIST).matters
+
+
+def test_refinement_ends_at_a_number_of_triangles(monkeypatch):
+    monkeypatch.setattr(meshed, "MOST_TRIANGLES", 1000)
+    array = ArrayScene(LoopScene(0.3, 0.03, 0.3), 1, 2, Between.CUT)
+    with pytest.raises(NotConvergedError, match=r"of 640 triangles, .* or solve fewer loops"):
+        meshed.by_mesh(array, "tried", 1e-9, lenient=False)

@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solver.mesh.circle_sheet import circle_scene
 from solver.mesh.contact_energy import CONTACT_TERM
 from solver.mesh.contact_solve import solve_in_contact
+from solver.mesh.rod_energy import WireStiffness
 from solver.mesh.solve import solve_loop_mesh
+from solver.mesh.solve_sheet import solve_sheet
 from solver.scene import LoopScene
 
 CLOSED = LoopScene(2.0, 0.0145, 0.3)
@@ -62,3 +65,17 @@ def test_a_loop_that_touches_nothing_is_as_without_contact(field):
 def test_the_same_every_time():
     one, other = (solve_in_contact(replace(CLOSED, strain=1.4), refinement=1) for _ in range(2))
     assert np.array_equal(one.positions, other.positions)
+
+
+def test_a_sheet_in_contact_is_the_loop_it_draws_in_another_unit():
+    wire = WireStiffness(8 * CLOSED.beta, 2 * CLOSED.axial_stiffness)
+    sheet = circle_scene(CLOSED, ((1.0, 0.0),), (2.0,), (), wires=(wire,))
+    free = solve_sheet(sheet, refinement=1)
+    assert free.distances.crossings > 0
+    found = solve_in_contact(sheet, refinement=1, before=free.distances)
+    loop = solve_in_contact(CLOSED, refinement=1)
+    assert not found.meets_itself
+    assert found.energy == pytest.approx(4 * loop.energy, rel=1e-3)
+    assert found.height == pytest.approx(2 * loop.height, rel=1e-2)
+    assert found.contact.wire_diameter == pytest.approx(2 * loop.contact.wire_diameter)
+    assert found.contact.before == free.distances
