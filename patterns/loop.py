@@ -83,6 +83,12 @@ class Loop:
             return f"at ({self.x_mm:g}, {self.y_mm:g}) mm"
         return f"in row {self.cell[0] + 1}, column {self.cell[1] + 1}"
 
+    def along_mm(self, angle_rad: float) -> float:
+        """Distance from the centre to the wire's centreline in a direction."""
+        a, b = self.semi_axes_mm
+        turned = angle_rad - self.axis_rad
+        return 1 / float(np.hypot(np.cos(turned) / a, np.sin(turned) / b))
+
     def reach_mm(self, normal_rad: float) -> float:
         """How far it goes from its centre in a direction: the support function."""
         long, short = self.semi_axes_mm

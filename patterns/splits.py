@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -28,7 +28,9 @@ def stage_count(tour: Sequence[int]) -> int:
     return max(stage, 2)  # the terminals cross too
 
 
-def split_points_mm(passes: Passes, length_mm: float) -> tuple[float, ...]:
+def split_points_mm(
+    passes: Passes, length_mm: float, further_mm: Sequence[float] = ()
+) -> tuple[float, ...]:
     """Choose the fewest points of a curve, one at least between the two passes of each contact.
 
     Intervals are stabbed greedily by their ends, which is optimal for intervals; then each point
@@ -40,6 +42,8 @@ def split_points_mm(passes: Passes, length_mm: float) -> tuple[float, ...]:
         Of every contact; the ends of the curve, which meet, are understood.
     length_mm
         Of the curve.
+    further_mm
+        Places where it touches other circuits, passed once each.
     """
     gaps: list[tuple[float, float]] = []
     for first, second in sorted((*passes, (0.0, length_mm)), key=lambda one: one[1]):
@@ -48,7 +52,7 @@ def split_points_mm(passes: Passes, length_mm: float) -> tuple[float, ...]:
             gaps[-1] = max(low, first), high
         else:
             gaps.append((first, second))
-    places = np.unique(np.array(passes, dtype=float))
+    places = np.unique(np.array([*chain.from_iterable(passes), *further_mm], dtype=float))
     return tuple(_widest_middle(low, high, places) for low, high in gaps)
 
 

@@ -109,7 +109,7 @@ def _lines(loops: Sequence[Loop], angle_rad: float) -> list[_Line]:
     along = np.array([cos(angle_rad), sin(angle_rad)])
     across = np.array([-sin(angle_rad), cos(angle_rad)])
     centre = np.array([(loop.x_mm, loop.y_mm) for loop in loops])
-    radius = np.array([loop.radius_mm for loop in loops])
+    radius = np.array([loop.along_mm(angle_rad) for loop in loops])
     place, offset = centre @ along, centre @ across
     order = np.argsort(offset, kind="stable")
     breaks = np.flatnonzero(np.diff(offset[order]) > SAME_LINE_MM) + 1

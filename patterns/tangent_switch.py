@@ -13,12 +13,13 @@ import numpy as np
 from patterns.circuit import Circuit, Crossing, CrossingKind
 from patterns.errors import PatternError
 from patterns.grid import serpentine, square_grid
-from patterns.layout import Layout, nearest_pair_text
+from patterns.layout import NEARLY_MM, Layout, nearest_pair_text
 from patterns.loop_arcs import loop_arcs
 from patterns.path import Arc, Piece, Vectors, WirePath
 from patterns.splits import Passes, split_points_mm
 from patterns.tails import tail_pieces
 from patterns.touching import CLOCKWISE, Touching, check_start, touching
+from patterns.wire_index import WireIndex
 
 START = -1
 """Stands for the start point among the contacts of a loop."""
@@ -56,6 +57,7 @@ def single_circuit(
     tail_length_mm: float,
     *,
     bend_mm: float | None = None,
+    further_mm: Sequence[tuple[float, float]] = (),
 ) -> Circuit:
     """Run one wire through every loop, with a straight tail at each end.
 
@@ -72,6 +74,8 @@ def single_circuit(
         Loop, and direction of its outward normal, at the terminals; the wire sets out clockwise.
     tail_length_mm
         Length of the straight part of each tail.
+    further_mm
+        Points (x, y) in which loops touch those of other circuits: no stage ends there.
     bend_mm
         Radius with which the tails turn outward from the tangent; none leaves them on it.
 
@@ -90,7 +94,8 @@ def single_circuit(
     ends = [*accumulate(sum(arc.length_mm for arc in way) for way in ways)]
     passes = _passes(steps, ends)
     comes, goes = tail_pieces(layout.loops[start_loop], start_rad, tail_length_mm, bend_mm)
-    stages = _stages(_merged(chain.from_iterable(ways)), split_points_mm(passes, ends[-1]))
+    curve = [*_merged(chain.from_iterable(ways))]
+    stages = _stages(curve, split_points_mm(passes, ends[-1], _stations(curve, further_mm)))
     stages[0][:0] = comes
     stages[-1].extend(goes)
     point, _ = goes[0].at(np.zeros(1))
@@ -102,6 +107,14 @@ def single_circuit(
         tuple(_crossings(layout, passes, point[0], ends[-1], tail_mm)),
         len(goes),
     )
+
+
+def _stations(curve: Sequence[Arc], points_mm: Sequence[tuple[float, float]]) -> list[float]:
+    """Where along a curve points on it lie."""
+    if not points_mm:
+        return []
+    nearest = WireIndex(WirePath(tuple(curve))).nearest(np.array(points_mm), NEARLY_MM)
+    return nearest.station_mm.tolist()
 
 
 def _crossings(

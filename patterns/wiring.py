@@ -106,7 +106,14 @@ def _circuit(layout: Layout, group: Group, place: Exit, tail_length_mm: float) -
     loop = group.loops.index(place.loop)
     switches = fewest_stages_tree(touching(own), loop, place.angle_rad)
     start = (loop, place.angle_rad, tail_length_mm)
-    return single_circuit(own, switches, *start, bend_mm=place.bend_mm)
+    further = _contacts_with_others(layout, group)
+    return single_circuit(own, switches, *start, bend_mm=place.bend_mm, further_mm=further)
+
+
+def _contacts_with_others(layout: Layout, group: Group) -> list[tuple[float, float]]:
+    """Points in which loops of a group touch loops outside it."""
+    own = set(group.loops)
+    return [(c.x_mm, c.y_mm) for c in layout.contacts if (c.first in own) != (c.second in own)]
 
 
 def _joined(layout: Layout, groups: tuple[Group, ...], circuits: tuple[Circuit, ...]) -> Wiring:

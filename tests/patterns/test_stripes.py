@@ -5,6 +5,7 @@ import pytest
 import shapely
 
 from patterns.laid_wire import laid_wire
+from patterns.loop import Loop
 from patterns.machine import Machine
 from patterns.plan import UNITS_PER_MM, BlockKind, StitchPlan
 from patterns.rules import check_plan
@@ -78,3 +79,14 @@ def test_a_stripe_on_the_wire_is_struck():
     struck = replace(plan.blocks[-1], runs=(replace(first, needles=needles), *others))
     faults = check_plan(CIRCUIT, StitchPlan((*plan.blocks[:-1], struck)), MACHINE, stitching, WIRE)
     assert {fault.rule for fault in faults} == {"needle-on-wire"}
+
+
+@pytest.mark.parametrize(("angle", "half"), [(0.0, "width"), (90.0, "height")])
+def test_stripes_reach_from_end_to_end_of_an_ellipse(angle, half):
+    loop = Loop(3.0, -2.0, 40.0, axis_ratio=1.8)
+    long, short = loop.semi_axes_mm
+    assert loop.along_mm(np.deg2rad(angle)) == pytest.approx(long if half == "width" else short)
+    for turned in (0.3, 1.1, 2.5):
+        x = 3.0 + loop.along_mm(turned) * np.cos(turned)
+        y = -2.0 + loop.along_mm(turned) * np.sin(turned)
+        assert ((x - 3) / long) ** 2 + ((y + 2) / short) ** 2 == pytest.approx(1)

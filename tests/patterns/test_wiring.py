@@ -185,3 +185,16 @@ def test_groups_that_will_not_do_are_named(loops, message: str) -> None:
     groups = tuple(Group(name, own) for name, own in zip("ab", loops, strict=True))
     with pytest.raises(PatternError, match=message):
         several_wires(apart(), groups, TAIL_MM, (7.5, 7.5))
+
+
+def test_no_stage_ends_in_a_contact_with_another_circuit(bench) -> None:
+    """The middle of the widest stretch between own contacts can be just that point."""
+    shares = {"a": (0, 4, 5), "b": (1, 2), "c": (3, 6, 7)}
+    groups = tuple(Group(name, loops, Side.CORNER) for name, loops in shares.items())
+    diameters = (0.3, 0.3, 0.3)
+    wiring = several_wires(square_grid(2, 4, 60.0), groups, TAIL_MM, (7.5, 7.5, 7.5))
+    plan = stitch_plan(wiring, bench.stitching, bench.machine, diameters, ())
+    assert faults(bench, wiring, plan, diameters) <= {"hoop"}
+    ends = [stage.at(stage.length_mm)[0][0] for stage in wiring.stages]
+    contacts = np.array([(c.x_mm, c.y_mm) for c in wiring.layout.contacts])
+    assert min(np.hypot(*(contacts - end).T).min() for end in ends) > 1.0
