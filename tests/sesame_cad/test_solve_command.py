@@ -90,11 +90,10 @@ def test_arrays_and_ellipses():
     assert untwisted["height_over_perimeter"] == pytest.approx(0.1294, abs=2e-4)
     assert untwisted["kind"] == "diagonal"
     assert json.loads(_run(*ellipse).stdout)["kind"] == "aligned"
-    kept = json.loads(
-        _run("--loops", "2x2", "--between", "kept", "--tolerance", "0.05", "--json").stdout
-    )
-    assert kept["rung"] == "mesh"
-    assert len(kept["loop_heights_over_radius"]) == 4
+    pair = ("--loops", "1x2", "--axis-ratio", "1.2", "--tolerance", "0.05", "--json")
+    coupled = json.loads(_run(*pair).stdout)
+    assert coupled["rung"] == "mesh"
+    assert len(coupled["loop_heights_over_radius"]) == 2
 
 
 @pytest.mark.parametrize(
