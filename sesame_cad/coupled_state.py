@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import isfinite
 from time import perf_counter
 from typing import TYPE_CHECKING, cast
 
@@ -36,9 +37,13 @@ if TYPE_CHECKING:
 
 Vectors = NDArray[np.float64]
 
-LEAST_TOLERANCE = 0.05
+LEAST_TOLERANCE = 0.1
 """Relative error of the height that coupled shapes are allowed at the least: finer meshes of
 arrays take minutes."""
+
+CHANGES_PER_ERROR = 3.0
+"""The mesh takes a third of its last change for its error, as a second-order one is on fine meshes;
+on meshes as coarse as those of arrays the whole change is the safer word."""
 
 CHORD_TOLERANCE_MM = 0.05
 """The wires' chords keep this near the smooth curve through the solved vertices."""
@@ -92,6 +97,12 @@ class CoupledState:
     def buckled(self) -> bool:
         """Whether the array is not flat."""
         return self.answer.buckled
+
+    @property
+    def height_error(self) -> float | None:
+        """Error of the heights, relative to them; None where no coarser mesh tells it."""
+        error = CHANGES_PER_ERROR * self.answer.height_error
+        return error if isfinite(error) else None
 
     @property
     def height_mm(self) -> float:
@@ -197,7 +208,7 @@ def solve_coupled(
         answer = solve_scene(
             scene,
             fidelity=Fidelity.AUTO,
-            tolerance=max(spec.model.tolerance, LEAST_TOLERANCE),
+            tolerance=max(spec.model.tolerance, LEAST_TOLERANCE) / CHANGES_PER_ERROR,
             refinement=spec.model.refinement or None,
             told=lambda doing: progress(f"{state} shape of {len(layout.loops)} loops: {doing}"),
         )

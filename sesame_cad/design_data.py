@@ -134,6 +134,7 @@ def _solve_data(state: ShapeState) -> Data:
         return loop_data(found, state.seconds) | more
     pitch = state.pitch_mm
     return answer_data(state.answer, state.seconds) | {
+        "height_error": state.height_error,
         "pitch_over_diameter": None if pitch is None else pitch / (2 * state.radius_mm),
     }
 

@@ -110,7 +110,8 @@ def _coupled_line(name: str, state: Data) -> str:
     known = ", with an unknown error" if error is None else f", to within {100 * error:.1g} %"
     return (
         f"{name}: all loops solved together; each {heights['smallest']:.2f} to "
-        f"{heights['largest']:.2f} mm high in its own axes{known}, on {state['triangles']} triangles"
+        f"{heights['largest']:.2f} mm high in its own axes{known}, "
+        f"on {state['triangles']} triangles"
     )
 
 

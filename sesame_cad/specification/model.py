@@ -25,7 +25,7 @@ class ModelSection(Section):
         le=0.1,
         description=(
             "the error allowed in the computed shape, relative to its size (no unit); coupled "
-            "shapes are allowed 0.05 at the least"
+            "shapes are allowed 0.1 at the least"
         ),
     )
     fidelity: Literal["auto", "compact", "mesh"] = Field(
