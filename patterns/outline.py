@@ -86,7 +86,12 @@ class Outline:
 
 
 def cut_outline(
-    circuit: Circuit, wire_diameter_mm: Diameters, margin_mm: float, corner_radius_mm: float
+    circuit: Circuit,
+    wire_diameter_mm: Diameters,
+    margin_mm: float,
+    corner_radius_mm: float,
+    *,
+    keep_between: bool = False,
 ) -> Outline:
     """Leave the fabric in and around the loops and along the tails; cut the rest away.
 
@@ -100,6 +105,8 @@ def cut_outline(
         Least fabric between the wire's surface and a cut.
     corner_radius_mm : float
         Radius of inner corners, rounded by leaving more fabric; 0 leaves them sharp.
+    keep_between : bool
+        Whether to leave the fabric that loops enclose between them, too.
 
     Raises
     ------
@@ -113,7 +120,10 @@ def cut_outline(
     wire = WireIndex(circuit.wire)
     for excess in (_FIRST_EXCESS_MM, CHORD_TOLERANCE_MM):
         fabric = _fabric(circuit, clearance + excess, corner_radius_mm)
-        _check_openings(circuit.layout, fabric, thickest, corner_radius_mm)
+        if keep_between:
+            fabric = _without_openings(circuit.layout, fabric)
+        else:
+            _check_openings(circuit.layout, fabric, thickest, corner_radius_mm)
         outline = _outline(fabric)
         if edge_clearance_mm(*outline.edges_mm(), wire, 2 * clearance).min() >= clearance:
             return outline
@@ -208,6 +218,18 @@ def _check_openings(
         f"the opening between the loops around ({x:.1f}, {y:.1f}) mm vanishes: with a corner "
         f"radius of {corner_radius_mm:g} mm, {advice}"
     )
+
+
+def _without_openings(layout: Layout, fabric: list[Polygon]) -> list[Polygon]:
+    """Fill what loops enclose; an opening beside a tail, which encloses it with them, stays."""
+    between: BaseGeometry = union_all(_faces(layout))
+    return [
+        Polygon(
+            one.exterior,
+            [ring for ring in one.interiors if not Polygon(ring).intersects(between)],
+        )
+        for one in fabric
+    ]
 
 
 def _faces(layout: Layout) -> list[BaseGeometry]:

@@ -8,7 +8,7 @@ from typing import Any
 from patterns.circuit import CrossingKind
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
-from sesame_cad.answer_data import solve_account
+from sesame_cad.answer_data import answer_data, solve_account
 from sesame_cad.electrics_data import (
     circuit_resistances_ohm,
     circuits_data,
@@ -17,10 +17,12 @@ from sesame_cad.electrics_data import (
 )
 from sesame_cad.files.stitch_formats import LOSSES
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
+from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.specification.machine import MachineSection
-from sesame_cad.state import State
+from sesame_cad.state import CellState
 from solver.equilibrium import Equilibrium
+from solver.ladder.answer import Rung
 from solver.omitted import OmittedTerm
 from solver.reading import Reading
 from solver.threshold import critical_beta, critical_strain
@@ -108,18 +110,37 @@ def loop_data(found: Equilibrium, seconds: float) -> Data:
     }
 
 
-def state_data(state: State) -> Data:
-    """Keys of the array cold or hot."""
+def state_data(state: ShapeState) -> Data:
+    """Keys of the array cold or hot; those over a radius are in that of the largest loop."""
     width, depth = state.footprint_mm
-    return loop_data(state.equilibrium, state.seconds) | {
+    heights = state.loop_heights_mm
+    return _solve_data(state) | {
         "beta": state.materials.beta,
         "axial_stiffness": state.materials.axial_stiffness,
         "height_mm": state.height_mm,
+        "loop_heights_mm": {
+            "mean": sum(heights) / len(heights),
+            "smallest": min(heights),
+            "largest": max(heights),
+        },
         "pitch_mm": state.pitch_mm,
         "footprint_mm": [width, depth],
         "energy_mJ": state.energy_mJ,
-        "array_energy_mJ": state.energy_mJ * len(state.cells),
+        "array_energy_mJ": state.array_energy_mJ,
         "omitted_terms": _omitted_data(state.omitted),
+    }
+
+
+def _solve_data(state: ShapeState) -> Data:
+    """How the shape was found; the same keys, and more for one of all loops together."""
+    if isinstance(state, CellState):
+        found = state.equilibrium
+        more = {"rung": str(Rung.COMPACT), "height_error": found.height_change}
+        return loop_data(found, state.seconds) | more
+    pitch = state.pitch_mm
+    return answer_data(state.answer, state.seconds) | {
+        "height_error": state.height_error,
+        "pitch_over_diameter": None if pitch is None else pitch / (2 * state.radius_mm),
     }
 
 

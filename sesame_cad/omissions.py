@@ -1,4 +1,4 @@
-"""What the model of one loop leaves out of a real array, in numbers."""
+"""What the model of the shape leaves out of a real array, in numbers."""
 
 from __future__ import annotations
 
@@ -31,11 +31,7 @@ def omissions(
 
     Contact is judged with the real wire's diameter instead of a line's.
     """
-    radius_mm = spec.layout.diameter_mm / 2
-    alpha = materials.alpha(spec.fabric.poisson)
-    weight = loop_mass_kg(spec) * GRAVITY_M_S2 / materials.force_unit_N
-    margin = (spec.outline.margin_mm + spec.wire.diameter_mm / 2) / radius_mm
-    gap_mm = smallest_wire_gap(found.shape) * radius_mm
+    gap_mm = smallest_wire_gap(found.shape) * spec.layout.diameter_mm / 2
     return (
         *(term for term in found.omitted if term.term != CONTACT),
         OmittedTerm(
@@ -45,6 +41,16 @@ def omissions(
             matters=gap_mm < 2 * spec.wire.diameter_mm,
             fatal=gap_mm <= spec.wire.diameter_mm,
         ),
+        *material_omissions(spec, materials),
+    )
+
+
+def material_omissions(spec: Specification, materials: LoopMaterials) -> tuple[OmittedTerm, ...]:
+    """What materials and cut add to any shape, measured on the largest loop."""
+    alpha = materials.alpha(spec.fabric.poisson)
+    weight = loop_mass_kg(spec) * GRAVITY_M_S2 / materials.force_unit_N
+    margin = (spec.outline.margin_mm + spec.wire.diameter_mm / 2) / (spec.layout.diameter_mm / 2)
+    return (
         OmittedTerm("bending of the fabric", "alpha", alpha, matters=alpha > SMALL),
         OmittedTerm("gravity", "weight of a loop / (E_f t R)", weight, matters=weight > SMALL),
         OmittedTerm(

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from patterns.records import Records, plan_records
+from sesame_cad.coupled_state import CoupledState
 from sesame_cad.design_data import design_data
 from sesame_cad.files.block_list import block_list_csv
 from sesame_cad.files.dst import write_dst
@@ -18,13 +19,13 @@ from sesame_cad.files.stitch_formats import write_embroidery
 from sesame_cad.files.stl import write_stl
 from sesame_cad.files.svg import outline_svg
 from sesame_cad.pictures.plan import plan_picture
-from sesame_cad.pictures.shapes import ShapeView, shapes_picture
+from sesame_cad.pictures.shapes import AnyView, ShapeView, SheetView, shapes_picture
 from sesame_cad.pictures.worksheet import worksheet_pdf
 from sesame_cad.pipeline import Design, design
 from sesame_cad.preview import solids
+from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory
-from sesame_cad.state import State
 from sesame_cad.threads import threads_of
 from sesame_cad.worksheet import worksheet
 
@@ -101,10 +102,14 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
             yield "pictures/shapes.png", shapes_picture(views)
 
 
-def _view(spec: Specification, state: State) -> ShapeView:
-    height = f"{state.height_mm:.1f} mm high" if state.equilibrium.buckled else "flat"
+def _view(spec: Specification, state: ShapeState) -> AnyView:
+    height = f"{state.height_mm:.1f} mm high" if state.buckled else "flat"
+    pitch = "" if state.pitch_mm is None else f", pitch {state.pitch_mm:.1f} mm"
+    title = f"{state.name}: {height}{pitch}"
+    if isinstance(state, CoupledState):
+        return SheetView(title, state.shape)
     return ShapeView(
-        f"{state.name}: {height}, pitch {state.pitch_mm:.1f} mm",
+        title,
         state.surface,
         state.centres_mm(),
         spec.wire.diameter_mm,

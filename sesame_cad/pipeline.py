@@ -25,9 +25,11 @@ from patterns.rules.net import check_net
 from patterns.rules.subject import Subject
 from patterns.stitch_plan import stitch_plan
 from patterns.violation import Violation
+from sesame_cad.coupled_state import solve_coupled
 from sesame_cad.errors import InputError
+from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
-from sesame_cad.state import State, solve_state
+from sesame_cad.state import solve_state
 from sesame_cad.wiring import wired
 from solver.errors import SceneError
 
@@ -78,13 +80,13 @@ class Design:
     ----------
     spec : Specification
     pattern : Pattern
-    states : tuple of State
+    states : tuple of ShapeState
         Cold and hot; none when no shape is asked for.
     """
 
     spec: Specification
     pattern: Pattern
-    states: tuple[State, ...]
+    states: tuple[ShapeState, ...]
 
 
 def pattern(spec: Specification) -> Pattern:
@@ -116,15 +118,21 @@ def design(spec: Specification, progress: Callable[[str], None] = lambda _: None
     """
     progress("circuit and stitches")
     laid = pattern(spec)
-    states: list[State] = []
-    if spec.layout.shape == "cell":
-        for name, modulus in (
-            ("cold", spec.wire.modulus_cold_GPa),
-            ("hot", spec.wire.modulus_hot_GPa),
-        ):
-            progress(f"{name} shape")
-            states.append(_refusing(spec, partial(solve_state, spec, name, modulus)))
-    return Design(spec, laid, tuple(states))
+    names = () if spec.predicted_shape == "none" else ("cold", "hot")
+    states = tuple(_state(spec, laid, name, progress) for name in names)
+    return Design(spec, laid, states)
+
+
+def _state(
+    spec: Specification, laid: Pattern, name: str, progress: Callable[[str], None]
+) -> ShapeState:
+    """Predict the array cold or hot."""
+    progress(f"{name} shape")
+    if spec.predicted_shape == "coupled":
+        layout = laid.circuit.layout
+        return _refusing(spec, partial(solve_coupled, spec, layout, name, progress))
+    modulus = spec.wire.modulus_cold_GPa if name == "cold" else spec.wire.modulus_hot_GPa
+    return _refusing(spec, partial(solve_state, spec, name, modulus))
 
 
 def _refusing(spec: Specification, work: Callable[[], Result]) -> Result:
@@ -140,7 +148,13 @@ def _pattern(spec: Specification) -> Pattern:
     wire_mm = spec.diameters_mm
     layout = tangent_layout(spec.layout.loops(), spec.layout.tolerance_mm)
     circuit = wired(spec, layout)
-    outline = cut_outline(circuit, wire_mm, spec.outline.margin_mm, spec.outline.corner_radius_mm)
+    outline = cut_outline(
+        circuit,
+        wire_mm,
+        spec.outline.margin_mm,
+        spec.outline.corner_radius_mm,
+        keep_between=spec.layout.between == "kept",
+    )
     marks = registration_marks(outline.bounds_mm, stitching.mark_size_mm, stitching.mark_gap_mm)
     plan = stitch_plan(circuit, stitching, machine, wire_mm, marks)
     net = net_of_stitches(spec, circuit, plan)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from patterns.layout import Layout
+from sesame_cad.coupled_state import CoupledState
 from sesame_cad.errors import DesignFileError
 from sesame_cad.files.stl import read_stl
 from sesame_cad.pipeline import Design
@@ -24,6 +25,10 @@ def solid_sizes_mm(made: Design) -> dict[str, Size]:
     for state in made.states:
         width, depth = _laid_size_mm(made.pattern.circuit.layout)
         sizes["flat"] = (width + wire, depth + wire, wire)
+        if isinstance(state, CoupledState):
+            sizes["flat"] = state.flat_shape.size_mm
+            sizes[state.name] = state.shape.size_mm
+            continue
         width, depth = state.footprint_mm
         sizes[state.name] = (width + wire, depth + wire, state.height_mm + wire)
     return sizes

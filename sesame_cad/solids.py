@@ -82,7 +82,18 @@ def cell_solid(
         raise InputError(*faults)
     slab = _slab(surface, wire_diameter_mm, fabric_thickness_mm, rings, segments)
     tube = tube_mesh(boundary, wire_diameter_mm, segments, sides)
-    return watertight(_union([_manifold(*slab), _manifold(*tube)]))
+    return union_solid([slab, tube])
+
+
+def union_solid(parts: list[tuple[Vectors, Triangles]]) -> trimesh.Trimesh:
+    """Join closed surfaces, each points and faces, into one solid.
+
+    Raises
+    ------
+    InputError
+        When the union does not come out as one closed solid.
+    """
+    return watertight(_union([_manifold(*part) for part in parts]))
 
 
 def array_solid(cell: trimesh.Trimesh, centres_mm: Vectors) -> trimesh.Trimesh:
@@ -139,7 +150,7 @@ def _slab(
     half_mm[-segments:] = min(thickness_mm / 2, RIM_SHARE * wire_diameter_mm / 2)
     offset = vertex_normals(middle, faces) * half_mm
     rim = np.arange(len(middle) - segments, len(middle))
-    wall = _quads(rim, np.roll(rim, -1), rim + len(middle), np.roll(rim, -1) + len(middle))
+    wall = quads(rim, np.roll(rim, -1), rim + len(middle), np.roll(rim, -1) + len(middle))
     closed = np.concatenate([faces, faces[:, ::-1] + len(middle), wall[:, ::-1]])
     return np.concatenate([middle + offset, middle - offset]), closed
 
@@ -152,7 +163,7 @@ def disc_mesh(surface: Surface, rings: int, segments: int) -> tuple[Vectors, Tri
     ring = 1 + np.arange(rings * segments).reshape(rings, segments)
     turned = np.roll(ring, -1, axis=1)
     fan = np.stack([np.zeros(segments, dtype=np.int64), ring[0], turned[0]], axis=1)
-    bands = _quads(ring[:-1].ravel(), ring[1:].ravel(), turned[:-1].ravel(), turned[1:].ravel())
+    bands = quads(ring[:-1].ravel(), ring[1:].ravel(), turned[:-1].ravel(), turned[1:].ravel())
     return points, np.concatenate([fan, bands])
 
 
@@ -176,7 +187,7 @@ def tube_mesh(
     ring = np.arange(segments * sides).reshape(segments, sides)
     onward, aside = np.roll(ring, -1, axis=0), np.roll(ring, -1, axis=1)
     corner = np.roll(onward, -1, axis=1)
-    return points.reshape(-1, 3), _quads(
+    return points.reshape(-1, 3), quads(
         ring.ravel(), onward.ravel(), aside.ravel(), corner.ravel()
     )[:, ::-1]
 
@@ -193,7 +204,7 @@ def _frame(boundary: Boundary, angle: Vectors) -> tuple[Vectors, Vectors]:
     return up / length, np.cross(tangent, up / length)
 
 
-def _quads(a: Triangles, b: Triangles, c: Triangles, d: Triangles) -> Triangles:
+def quads(a: Triangles, b: Triangles, c: Triangles, d: Triangles) -> Triangles:
     """Two triangles each for the quadrilaterals a-b-d-c."""
     return np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)])
 

@@ -1,4 +1,4 @@
-"""An array's shape at one temperature: the solved loop in millimetres."""
+"""An array's shape at one temperature, where one loop is all there is to solve."""
 
 from __future__ import annotations
 
@@ -24,9 +24,11 @@ Vectors = NDArray[np.float64]
 
 _EDGE_POINTS = 720
 
+REMEDY = 'layout.shape = "none" makes the stitch and cut files alone'
+
 
 @dataclass(frozen=True)
-class State:
+class CellState:
     """The array cold or hot. All its loops have the same shape, and stand side by side.
 
     Attributes
@@ -57,9 +59,24 @@ class State:
         return self.materials.loop_radius_m * 1e3
 
     @property
+    def buckled(self) -> bool:
+        """Whether the loops are not flat."""
+        return self.equilibrium.buckled
+
+    @property
     def height_mm(self) -> float:
         """Rise of the wire's centreline from valley to crest."""
         return self.equilibrium.shape.height * self.radius_mm
+
+    @property
+    def loop_heights_mm(self) -> tuple[float, ...]:
+        """Rise of each loop along its own axis."""
+        return (self.height_mm,) * self.loops
+
+    @property
+    def loops(self) -> int:
+        """Number of loops."""
+        return len(self.cells)
 
     @property
     def pitch_mm(self) -> float:
@@ -70,6 +87,11 @@ class State:
     def energy_mJ(self) -> float:  # noqa: N802 - the unit's name
         """Energy of one loop."""
         return self.equilibrium.energy * self.materials.energy_unit_J * 1e3
+
+    @property
+    def array_energy_mJ(self) -> float:  # noqa: N802 - the unit's name
+        """Energy of all loops together."""
+        return self.energy_mJ * self.loops
 
     @cached_property
     def footprint_mm(self) -> tuple[float, float]:
@@ -116,7 +138,7 @@ def loop_scene(spec: Specification, materials: LoopMaterials) -> LoopScene:
     )
 
 
-def solve_state(spec: Specification, name: str, wire_modulus_GPa: float) -> State:  # noqa: N803
+def solve_state(spec: Specification, name: str, wire_modulus_GPa: float) -> CellState:  # noqa: N803
     """Solve the array at one modulus of the wire.
 
     With the fabric between the loops cut away and touching wires bonded side by side, equal loops
@@ -137,7 +159,7 @@ def solve_state(spec: Specification, name: str, wire_modulus_GPa: float) -> Stat
     except NotConvergedError as error:
         raise NotConvergedError(
             f"{name} shape: {error} (beta = {materials.beta:.3g}; it grows as wire diameter⁴ / "
-            'loop diameter³; layout.shape = "none" makes the stitch and cut files alone)'
+            f"loop diameter³; {REMEDY})"
         ) from None
     seconds = perf_counter() - start
     left = omissions(spec, materials, found)
@@ -147,4 +169,4 @@ def solve_state(spec: Specification, name: str, wire_modulus_GPa: float) -> Stat
                 f"{name} shape: {term.term} is left out, and the shape is wrong without "
                 f"({term.measure}: {term.value:.2g}); use a thicker wire or less prestrain"
             )
-    return State(name, found, materials, left, seconds, spec.layout.cells())
+    return CellState(name, found, materials, left, seconds, spec.layout.cells())

@@ -27,6 +27,9 @@ def print_design(data: Data, folder: Path) -> None:
     if shown:
         console.print(_grid(_model_rows(data)))
         console.print(_states(data))
+        for name in shown:
+            if data[name]["rung"] == "mesh":
+                console.print(_coupled_line(name, data[name]))
     else:
         console.print(f'{data["name"]}: no shape is predicted (layout.shape = "none")')
     console.print(_grid(_workshop_rows(data)))
@@ -94,11 +97,22 @@ def _states(data: Data) -> Table:
             _shape_name(state),
             f"{state['height_mm']:.2f} mm",
             f"{state['height_over_perimeter']:.4f}",
-            f"{state['pitch_mm']:.2f} mm",
+            "" if state["pitch_mm"] is None else f"{state['pitch_mm']:.2f} mm",
             f"{width:.1f} × {depth:.1f} mm",
             f"{state['energy_mJ']:.2f} mJ",
         )
     return table
+
+
+def _coupled_line(name: str, state: Data) -> str:
+    """Say how the loops of a coupled shape differ, and how well it is known."""
+    heights, error = state["loop_heights_mm"], state["height_error"]
+    known = ", with an unknown error" if error is None else f", to within {100 * error:.1g} %"
+    return (
+        f"{name}: all loops solved together; each {heights['smallest']:.2f} to "
+        f"{heights['largest']:.2f} mm high in its own axes{known}, "
+        f"on {state['triangles']} triangles"
+    )
 
 
 def _workshop_rows(data: Data) -> list[tuple[str, str]]:

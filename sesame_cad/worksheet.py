@@ -102,7 +102,7 @@ def _sizes(design: Design) -> Iterator[tuple[str, str]]:
     for state in design.states:
         width, depth = state.footprint_mm
         kind = "relaxed, cold" if state.name == "cold" else "heated"
-        rise = f"{state.height_mm + wire:.1f} mm high" if state.equilibrium.buckled else "flat"
+        rise = f"{state.height_mm + wire:.1f} mm high" if state.buckled else "flat"
         yield kind, f"{_size(width + wire, depth + wire)}, {rise}"
 
 

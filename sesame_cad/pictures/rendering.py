@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sesame_cad.solids import Surface, tube_mesh
+from sesame_cad.sheet_shape import Piece
+from sesame_cad.sheet_solid import around
+from sesame_cad.solids import Boundary, Surface, tube_mesh
+from sesame_cad.watertight import vertex_normals
 
 Vectors = NDArray[np.float64]
 Floats = NDArray[np.float32]
@@ -24,6 +27,7 @@ _LIGHT = np.array([-0.35, -0.30, 0.89])
 _AMBIENT, _GLOSS = 0.42, 0.18
 _RINGS, _SPOKES, _SIDES = 33, 193, 12
 _BAND = 8
+_MOST_SAMPLES = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,19 @@ class Patch:
 
 
 @dataclass(frozen=True)
+class TrianglePatch:
+    """Triangles (m, 3) of points (n, 3) in mm with normals, and their colour (3,) in 0..1."""
+
+    points: Vectors
+    normals: Vectors
+    triangles: Indices
+    colour: Vectors
+
+
+AnyPatch = Patch | TrianglePatch
+
+
+@dataclass(frozen=True)
 class _Sprite:
     """Pixels of one loop: row (up) and column from its origin, depth in mm, colour."""
 
@@ -79,16 +96,34 @@ def fabric_patch(surface: Surface, colour: Vectors) -> Patch:
 
 def wire_patch(surface: Surface, wire_diameter_mm: float, colour: Vectors) -> Patch:
     """Grid the tube of wire around a loop."""
-    points, _ = tube_mesh(
-        lambda angle: surface(np.ones_like(angle), angle), wire_diameter_mm, _SPOKES - 1, _SIDES
+
+    def edge(angle_rad: Vectors) -> Vectors:
+        return surface(np.ones_like(angle_rad), angle_rad)
+
+    return _tube(edge, wire_diameter_mm, _SPOKES - 1, colour)
+
+
+def chain_patch(chain: Vectors, wire_diameter_mm: float, colour: Vectors) -> Patch:
+    """Grid the tube of wire along a closed chain (n, 3)."""
+    return _tube(around(chain), wire_diameter_mm, len(chain), colour)
+
+
+def piece_patch(piece: Piece, colour: Vectors) -> TrianglePatch:
+    """Triangles of a piece of fabric."""
+    return TrianglePatch(
+        piece.points, vertex_normals(piece.points, piece.faces), piece.faces, colour
     )
-    grid = points.reshape(_SPOKES - 1, _SIDES, 3)
+
+
+def _tube(boundary: Boundary, wire_diameter_mm: float, spokes: int, colour: Vectors) -> Patch:
+    points, _ = tube_mesh(boundary, wire_diameter_mm, spokes, _SIDES)
+    grid = points.reshape(spokes, _SIDES, 3)
     normals = _unit(grid - grid.mean(axis=1, keepdims=True))
     return Patch(_closed(grid), _closed(normals), colour)
 
 
 def projected_bounds(
-    patches: list[Patch], centres_mm: Vectors, view: View
+    patches: Sequence[AnyPatch], centres_mm: Vectors, view: View
 ) -> tuple[Vectors, Vectors]:
     """Lowest and highest (right, up) coordinates in mm over all copies of a loop."""
     flat = np.concatenate([patch.points.reshape(-1, 3) for patch in patches]) @ view.axes()[:2].T
@@ -97,7 +132,7 @@ def projected_bounds(
 
 
 def render(
-    patches: list[Patch],
+    patches: Sequence[AnyPatch],
     centres_mm: Vectors,
     view: View,
     *,
@@ -137,7 +172,7 @@ def render(
     return fine.mean(axis=(1, 3), dtype=np.float64)[::-1]
 
 
-def _sprite(patches: list[Patch], view: View, step_mm: float) -> _Sprite:
+def _sprite(patches: Sequence[AnyPatch], view: View, step_mm: float) -> _Sprite:
     """Sample the patches densely and keep the nearest sample of every pixel."""
     low, high = projected_bounds(patches, np.zeros((1, 2)), view)
     first = np.rint(low / step_mm).astype(np.int64) - 1
@@ -157,15 +192,34 @@ def _sprite(patches: list[Patch], view: View, step_mm: float) -> _Sprite:
     return _Sprite(row + first[1], column + first[0], depth[filled], colour[filled])
 
 
-def _samples(patch: Patch, view: View, step_mm: float) -> Iterator[Floats]:
+def _samples(patch: AnyPatch, view: View, step_mm: float) -> Iterator[Floats]:
     """Seen coordinates and normals (n, 6) of samples less than one step apart, band by band."""
     axes = view.axes()
+    if isinstance(patch, TrianglePatch):
+        yield from _triangle_samples(patch, axes, step_mm)
+        return
     both = np.concatenate([patch.points @ axes.T, patch.normals @ axes.T], axis=2)
     both = both.astype(np.float32)
     # Bands, because the inner ones need fewer samples around, and to keep the memory small.
     for start in range(0, len(both) - 1, _BAND):
         band = both[start : start + _BAND + 1]
         yield _refined(_refined(band, step_mm).swapaxes(0, 1), step_mm).reshape(-1, 6)
+
+
+def _triangle_samples(patch: TrianglePatch, axes: Vectors, step_mm: float) -> Iterator[Floats]:
+    """Sample triangles in equal parts of their sides, those of a size together."""
+    both = np.concatenate([patch.points @ axes.T, patch.normals @ axes.T], axis=1)
+    corners = both.astype(np.float32)[patch.triangles]
+    sides = np.roll(corners, -1, axis=1)[..., :2] - corners[..., :2]
+    longest = np.hypot(sides[..., 0], sides[..., 1]).max(axis=1)
+    pieces = np.maximum(1, np.ceil(1.2 * longest / step_mm).astype(np.int64))
+    for count in np.unique(pieces):
+        i, j = np.indices((count + 1, count + 1)).reshape(2, -1)
+        i, j = i[i + j <= count], j[i + j <= count]
+        shares = np.stack([i, j, count - i - j], axis=1).astype(np.float32) / np.float32(count)
+        own = np.flatnonzero(pieces == count)
+        for few in np.array_split(own, np.ceil(len(own) * len(shares) / _MOST_SAMPLES)):
+            yield np.einsum("sc,tck->tsk", shares, corners[few]).reshape(-1, 6)
 
 
 def _refined(grid: Floats, step_mm: float) -> Floats:

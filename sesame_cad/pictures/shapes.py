@@ -13,13 +13,16 @@ from numpy.typing import NDArray
 
 from sesame_cad.pictures.canvas import DOTS_PER_INCH, png_bytes
 from sesame_cad.pictures.rendering import (
-    Patch,
+    AnyPatch,
     View,
+    chain_patch,
     fabric_patch,
+    piece_patch,
     projected_bounds,
     render,
     wire_patch,
 )
+from sesame_cad.sheet_shape import SheetShape
 from sesame_cad.solids import Surface
 
 Vectors = NDArray[np.float64]
@@ -57,7 +60,30 @@ class ShapeView:
     wire_diameter_mm: float
 
 
-def shapes_picture(views: Sequence[ShapeView]) -> bytes:
+@dataclass(frozen=True)
+class SheetView:
+    """One state of an array whose loops differ.
+
+    Attributes
+    ----------
+    title : str
+    shape : SheetShape
+        Its wires are drawn at their true size.
+    """
+
+    title: str
+    shape: SheetShape
+
+    @property
+    def centres_mm(self) -> Vectors:
+        """Where it stands: it is drawn once."""
+        return np.zeros((1, 2))
+
+
+AnyView = ShapeView | SheetView
+
+
+def shapes_picture(views: Sequence[AnyView]) -> bytes:
     """Draw states of an array side by side, at one scale, seen from one side; a PNG."""
     view = View()
     patches = [_patches(shape) for shape in views]
@@ -85,8 +111,17 @@ def shapes_picture(views: Sequence[ShapeView]) -> bytes:
     return png_bytes(figure)
 
 
-def _patches(shape: ShapeView) -> list[Patch]:
+def _patches(shape: AnyView) -> list[AnyPatch]:
     fabric, wire = (np.array(to_rgb(colour)) for colour in (FABRIC, WIRE))
+    if isinstance(shape, SheetView):
+        drawn = shape.shape
+        return [
+            *(piece_patch(piece, fabric) for piece in drawn.pieces),
+            *(
+                chain_patch(chain, thick, wire)
+                for chain, thick in zip(drawn.wires, drawn.diameters_mm, strict=True)
+            ),
+        ]
     return [
         fabric_patch(shape.surface, fabric),
         wire_patch(shape.surface, shape.wire_diameter_mm, wire),

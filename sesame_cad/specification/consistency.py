@@ -10,10 +10,12 @@ from patterns.errors import PatternError
 from patterns.sewn_run import APPROACH_MM
 from patterns.terminals import terminals
 from sesame_cad.specification.fault import Fault
-from sesame_cad.specification.layout import TILING, LayoutSection
+from sesame_cad.specification.layout import LayoutSection
 from sesame_cad.specification.machine import MachineSection
+from sesame_cad.specification.model import ModelSection
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
+from sesame_cad.specification.prediction import MOST_COUPLED, coupled_because, predicted_shape
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.toml_text import number_text
 from sesame_cad.specification.wire import WireSection
@@ -30,6 +32,7 @@ class Together:
 
     wire: WireSection
     layout: LayoutSection
+    model: ModelSection
     wiring: WiringSection
     stitching: StitchingSection
     machine: MachineSection
@@ -129,22 +132,28 @@ def _missing_cells(sections: Together) -> Iterator[Fault]:
 
 
 def _no_shape(sections: Together) -> Iterator[Fault]:
-    layout = sections.layout
-    if layout.shape == "cell" and not layout.tiles:
-        what = f'layout.kind = "{layout.kind}"'
-        if layout.kind in TILING:
-            oval = layout.axis_ratio != 1
-            what = (
-                f"{_RATIO_NAME} = {number_text(layout.axis_ratio)}"
-                if oval
-                else "a row of unequal loops"
-            )
+    layout, model = sections.layout, sections.model
+    coupling = coupled_because(layout, sections.wiring, sections.wire)
+    if layout.shape == "cell" and coupling is not None:
         yield Fault(
             _SHAPE,
-            f'must be "none" for {what}: its loops do not fit together each '
-            "in the shape that it takes alone, and the shape of the array needs the coupled array "
-            'solve, not available yet; with "none" there are stitch and cut files only',
+            f"cannot be had: {coupling}, which needs the coupled array solve; let it be "
+            '"coupled", or "none" for stitch and cut files only',
             '"cell"',
+        )
+        return
+    shape = predicted_shape(layout, model, sections.wiring, sections.wire)
+    if layout.shape == "cell" and model.fidelity == "mesh":
+        yield Fault(_FIDELITY, 'must be "compact" or "auto" for layout.shape = "cell"', '"mesh"')
+    if shape == "coupled" and model.fidelity == "compact":
+        problem = 'must be "mesh" or "auto": the loops\' shape is a coupled one'
+        yield Fault(_FIDELITY, problem, '"compact"')
+    if shape == "coupled" and layout.count > MOST_COUPLED:
+        yield Fault(
+            _SHAPE,
+            f'must be "none" for {layout.count} loops: a coupled shape is predicted for up to '
+            f"{MOST_COUPLED}",
+            f'"{layout.shape}"',
         )
 
 
@@ -239,6 +248,7 @@ _MISSING = ("layout", "missing")
 _CIRCLES = ("layout", "circles")
 _TERMINALS = ("layout", "terminals")
 _SHAPE = ("layout", "shape")
+_FIDELITY = ("model", "fidelity")
 _WIDTH = ("machine", "hoop_width_mm")
 _HEIGHT = ("machine", "hoop_height_mm")
 _RIM = ("machine", "hoop_rim_mm")
@@ -250,7 +260,25 @@ _SIZES = (_KIND, _LOOP, _DIAMETERS, _CIRCLES)
 _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str], ...]], ...] = (
     (_missing_keys, (_KIND, _DIAMETERS)),
     (_missing_cells, (_KIND, _ROWS, _COLUMNS, _DIAMETERS, _MISSING)),
-    (_no_shape, (_KIND, _SHAPE, _DIAMETERS, _RATIO)),
+    (
+        _no_shape,
+        (
+            _KIND,
+            _ROWS,
+            _COLUMNS,
+            _DIAMETERS,
+            _RATIO,
+            _MISSING,
+            _CIRCLES,
+            _SHAPE,
+            ("layout", "between"),
+            ("wiring", "circuits"),
+            _DIAMETER,
+            ("wire", "modulus_cold_GPa"),
+            ("wire", "modulus_hot_GPa"),
+            _FIDELITY,
+        ),
+    ),
     (_thick_wire, (_DIAMETER, *_SIZES)),
     (_sharp_bend, (_DIAMETER, *_SIZES, _RATIO, ("stitching", "smallest_bend_diameters"))),
     (_stretched_twice, (_KIND, _RATIO, _ANGLE)),
@@ -276,9 +304,7 @@ _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str
     ),
     (_thick_preview, (_DIAMETER, _PREVIEW)),
     (
-        lambda sections: circuit_faults(
-            sections.wiring, sections.layout, sections.wire, sections.stitching
-        ),
+        lambda sections: circuit_faults(sections.wiring, sections.layout, sections.stitching),
         (("wiring", "circuits"), ("wiring", "split"), _KIND, _ROWS, _COLUMNS, _MISSING, _SHAPE),
     ),
 )

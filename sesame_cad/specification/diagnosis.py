@@ -14,6 +14,7 @@ from sesame_cad.specification.consistency import Together, inconsistencies
 from sesame_cad.specification.fault import Fault, shown_value
 from sesame_cad.specification.layout import LayoutSection
 from sesame_cad.specification.machine import MachineSection
+from sesame_cad.specification.model import ModelSection
 from sesame_cad.specification.nearest import nearest_key
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
@@ -107,6 +108,7 @@ def _faults_between(
     together = Together(
         wire=sound("wire", WireSection),
         layout=sound("layout", LayoutSection),
+        model=sound("model", ModelSection),
         wiring=sound("wiring", WiringSection),
         stitching=sound("stitching", StitchingSection),
         machine=sound("machine", MachineSection),

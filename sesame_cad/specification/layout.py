@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import radians
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from patterns.lattice import Lattice, centred, lattice_cells, lattice_loops, row_loops
 from patterns.layout import ROUNDED_MM, TANGENCY_TOLERANCE_MM
@@ -28,15 +28,6 @@ CIRCLES = Allowed(
 DIAMETERS = Allowed("a list, each item a number from 0.1 to 10000, such as [25, 30, 25]")
 
 LARGEST_AXIS_RATIO = 5
-
-
-def _refuse_kept(value: object) -> object:
-    if value == "kept":
-        raise ValueError(
-            'must be "cut": fabric kept between the loops couples them, '
-            "which needs the coupled array solve, not available yet"
-        )
-    return value
 
 
 class Circle(Section):
@@ -124,14 +115,15 @@ class LayoutSection(Section):
         default="corner",
         description="where the two tails leave the array (a word); the corner is the bottom left",
     )
-    between: Annotated[Literal["cut"], BeforeValidator(_refuse_kept)] = Field(
+    between: Literal["cut", "kept"] = Field(
         default="cut", description="what becomes of the fabric between the loops (a word)"
     )
-    shape: Literal["cell", "none"] = Field(
-        default="cell",
+    shape: Literal["auto", "cell", "coupled", "none"] = Field(
+        default="auto",
         description=(
             "the prediction of the shape (a word): from one cell, as square grids and rows of "
-            "equal circles allow, or none, for stitch and cut files only"
+            "equal circles allow; of all loops together, as they act on each other (coupled); cell "
+            "where it holds, else coupled (auto); or none, for stitch and cut files only"
         ),
     )
 
@@ -159,6 +151,11 @@ class LayoutSection(Section):
     def tolerance_mm(self) -> float:
         """How far from touching circles may be given: they are rounded when they are typed in."""
         return ROUNDED_MM if self.kind == "circles" else TANGENCY_TOLERANCE_MM
+
+    @property
+    def count(self) -> int:
+        """Loops that are there."""
+        return len(self.circles) if self.kind == "circles" else len(self.cells())
 
     @property
     def side(self) -> Side:

@@ -23,5 +23,24 @@ class ModelSection(Section):
         default=1e-4,
         ge=1e-8,
         le=0.1,
-        description="the error allowed in the computed shape, relative to its size (no unit)",
+        description=(
+            "the error allowed in the computed shape, relative to its size (no unit); coupled "
+            "shapes are allowed 0.1 at the least"
+        ),
+    )
+    fidelity: Literal["auto", "compact", "mesh"] = Field(
+        default="auto",
+        description=(
+            "what the shape is solved with (a word): smooth functions, which know one cell; a "
+            "mesh, which knows all loops together; or what the prediction takes"
+        ),
+    )
+    refinement: int = Field(
+        default=0,
+        ge=0,
+        le=3,
+        description=(
+            "how often the mesh of a coupled shape is refined (a count), whatever its error, which "
+            "is told; 0 is until the tolerance is met"
+        ),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
@@ -19,6 +19,7 @@ from sesame_cad.specification.machine import MachineSection
 from sesame_cad.specification.model import ModelSection
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
+from sesame_cad.specification.prediction import predicted_shape
 from sesame_cad.specification.section import Allowed, Section
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.supply import SupplySection
@@ -64,6 +65,7 @@ class Specification(Section):
         together = Together(
             wire=self.wire,
             layout=self.layout,
+            model=self.model,
             wiring=self.wiring,
             stitching=self.stitching,
             machine=self.machine,
@@ -74,6 +76,11 @@ class Specification(Section):
         if faults:
             raise ValueError("\n".join(map(str, faults)))
         return self
+
+    @property
+    def predicted_shape(self) -> Literal["cell", "coupled", "none"]:
+        """How the shape is predicted."""
+        return predicted_shape(self.layout, self.model, self.wiring, self.wire)
 
     @property
     def preview_thickness_mm(self) -> float:

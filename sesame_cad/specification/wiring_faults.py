@@ -9,17 +9,15 @@ from sesame_cad.specification.fault import Fault
 from sesame_cad.specification.layout import LayoutSection
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.toml_text import number_text
-from sesame_cad.specification.wire import WireSection
 from sesame_cad.specification.wiring import CircuitItem, WiringSection
 
 _CIRCUITS = ("wiring", "circuits")
 _SPLIT = ("wiring", "split")
-_SHAPE = ("layout", "shape")
 _MOST_NAMED = 4
 
 
 def circuit_faults(
-    wiring: WiringSection, layout: LayoutSection, wire: WireSection, stitching: StitchingSection
+    wiring: WiringSection, layout: LayoutSection, stitching: StitchingSection
 ) -> Iterator[Fault]:
     """Check that circuits hold every loop once, and that their wires suit the loops."""
     circuits = wiring.circuits
@@ -32,7 +30,7 @@ def circuit_faults(
             yield Fault(_CIRCUITS, f"{count} circuits are called {name}: names must differ")
     wrong = [fault for one in circuits for fault in _own_faults(one, layout)]
     yield from wrong or _not_once(wiring, layout)
-    yield from _wire_faults(wiring, layout, wire, stitching)
+    yield from _wire_faults(wiring, layout, stitching)
 
 
 def circuit_loops(circuit: CircuitItem, layout: LayoutSection) -> tuple[int, ...]:
@@ -87,19 +85,8 @@ def _loop_name(layout: LayoutSection, loop: int) -> str:
 
 
 def _wire_faults(
-    wiring: WiringSection, layout: LayoutSection, wire: WireSection, stitching: StitchingSection
+    wiring: WiringSection, layout: LayoutSection, stitching: StitchingSection
 ) -> Iterator[Fault]:
-    keys = ("diameter_mm", "modulus_cold_GPa", "modulus_hot_GPa")
-    for one in wiring.circuits:
-        own = one.wire(wire)
-        if layout.shape == "cell" and any(getattr(own, k) != getattr(wire, k) for k in keys):
-            yield Fault(
-                _SHAPE,
-                f'must be "none", for the wire of circuit {one.name} is another than [wire] and '
-                "its loops take another shape",
-                '"cell"',
-            )
-            return
     limit = stitching.smallest_bend_diameters
     bends = (2 * loop.smallest_radius_mm for loop in layout.kinds_of_loops())
     smallest = min(bends, default=float("inf"))

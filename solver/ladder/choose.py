@@ -6,7 +6,9 @@ the model left out, adds what turned out to matter where it can, and says the re
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from solver.checks import SLACK, TWIST
 from solver.compact import solve_loop
@@ -38,6 +40,8 @@ def solve_scene(
     fidelity: Fidelity = Fidelity.AUTO,
     tolerance: float = 1e-3,
     allow_unreliable: bool = False,
+    refinement: int | None = None,
+    told: Callable[[str], None] = lambda _: None,
 ) -> Answer:
     """Solve a scene on the rung that is asked for, or on the cheapest that meets the tolerance.
 
@@ -47,6 +51,8 @@ def solve_scene(
         Error of the height that is allowed, relative to it.
     allow_unreliable : bool
         Give the shape even where it must not be relied on.
+    refinement, told
+        Of general scenes: see `by_mesh`.
 
     Raises
     ------
@@ -56,7 +62,8 @@ def solve_scene(
         When there is no shape to rely on.
     """
     if isinstance(scene, SheetScene):
-        return _solve_sheet(scene, fidelity, tolerance, lenient=allow_unreliable)
+        solve = partial(by_mesh, lenient=allow_unreliable, refinement=refinement, told=told)
+        return _solve_sheet(scene, fidelity, tolerance, solve)
     if isinstance(scene, ArrayScene):
         return _solve_array(scene, fidelity, tolerance, lenient=allow_unreliable)
     return _solve_loop(scene, fidelity, tolerance, lenient=allow_unreliable)
@@ -170,11 +177,11 @@ def _solve_array(
 
 
 def _solve_sheet(
-    scene: SheetScene, fidelity: Fidelity, tolerance: float, *, lenient: bool
+    scene: SheetScene, fidelity: Fidelity, tolerance: float, solve: Callable[..., Answer]
 ) -> Answer:
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
         raise SceneError(f"{fidelity} solves one loop of its own; mesh solves any scene")
     if fidelity is Fidelity.MESH:
-        return by_mesh(scene, _ASKED, tolerance, lenient=lenient)
+        return solve(scene, _ASKED, tolerance)
     reason = "only a mesh knows scenes of many curves"
-    return by_mesh(scene, reason, tolerance, lenient=lenient, add_twist=True)
+    return solve(scene, reason, tolerance, add_twist=True)

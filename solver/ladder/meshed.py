@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+
+import numpy as np
 
 from solver.checks import CONTACT
 from solver.errors import NotConvergedError
@@ -59,13 +62,24 @@ class _InContact:
             allow_unreliable=lenient,
             before=found.distances,
         )
-        before = math.nan if self._last is None else self._last.height
-        self._last = replace(solved, coarser_height=before)
+        last = self._last
+        self._last = replace(
+            solved,
+            coarser_height=math.nan if last is None else last.height,
+            coarser_loop_heights=np.zeros(0) if last is None else last.loop_heights,
+        )
         return self._last
 
 
 def by_mesh(
-    scene: MeshScene, reason: str, tolerance: float, *, lenient: bool, add_twist: bool = False
+    scene: MeshScene,
+    reason: str,
+    tolerance: float,
+    *,
+    lenient: bool,
+    add_twist: bool = False,
+    refinement: int | None = None,
+    told: Callable[[str], None] = lambda _: None,
 ) -> Answer:
     """Refine until a third of the last change in height is the error allowed.
 
@@ -73,21 +87,43 @@ def by_mesh(
     ----------
     add_twist : bool
         Whether to add the twist of straight round wires where the shape without it writhes.
+    refinement : int, optional
+        Of the one mesh that is solved, whatever its error; the tolerance then plays no part.
+    told : callable
+        Told of every mesh before it is solved.
     """
-    found = _refined(scene, tolerance, lenient=lenient, add_twist=add_twist)
+    refinements = _refinements(scene, refinement)
+    found = _refined(scene, tolerance, refinements, told, lenient=lenient, add_twist=add_twist)
+    tolerance = math.inf if refinement is not None else tolerance
     if found.scene != scene:
         reason = f"{reason}; {TWIST_ADDED}"
     return _mesh_answer(found, reason, tolerance, lenient=lenient)
 
 
+def _refinements(scene: MeshScene, only: int | None) -> range:
+    """Refinements that may be solved, the coarsest first."""
+    if only is not None:
+        return range(only, only + 1)
+    if isinstance(scene, LoopScene):
+        return range(_COARSEST_LOOP, FINEST_LOOP + 1)
+    return range(_COARSEST_ARRAY, FINEST_ARRAY + 1)
+
+
 def _refined(
-    scene: MeshScene, tolerance: float, *, lenient: bool, add_twist: bool
+    scene: MeshScene,
+    tolerance: float,
+    refinements: range,
+    told: Callable[[str], None],
+    *,
+    lenient: bool,
+    add_twist: bool,
 ) -> MeshEquilibrium:
     """Solve on finer and finer meshes; from where plain fabric goes slack, with a tension field."""
     contact = _InContact(scene)
-    refinement = _COARSEST_LOOP if isinstance(scene, LoopScene) else _COARSEST_ARRAY
+    refinement = refinements[0]
     field = False
     while True:
+        told(f"mesh refined {refinement} times")
         found = _solved(scene, refinement, field=field, lenient=lenient)
         field = found.tension_field
         found = contact.solved(found, refinement, lenient=lenient)
@@ -95,13 +131,15 @@ def _refined(
         if add_twist and not found.meets_itself and lacks_twist(found):
             with_twist = twisted(scene, ROUND_WIRE_TWIST_RATIO)
             try:
-                return _refined(with_twist, tolerance, lenient=lenient, add_twist=False)
+                return _refined(
+                    with_twist, tolerance, refinements, told, lenient=lenient, add_twist=False
+                )
             except NotConvergedError:
                 add_twist = False  # the account of what is left out tells the twist
         _check_converged(found, lenient=lenient)
         # two coarse meshes may agree by chance
-        told = refinement > _COARSEST_ARRAY and _mesh_error(found) <= tolerance
-        if told or _finest(scene, found, refinement):
+        settled = refinement > _COARSEST_ARRAY and _mesh_error(found) <= tolerance
+        if settled or refinement >= refinements[-1] or _finest(scene, found, refinement):
             return found
         refinement += 1
 
@@ -123,13 +161,11 @@ def _solved(scene: MeshScene, refinement: int, *, field: bool, lenient: bool) ->
 
 def _finest(scene: MeshScene, found: MeshEquilibrium, refinement: int) -> bool:
     """Whether no finer mesh is to be solved."""
-    one = isinstance(scene, LoopScene)
-    finest = FINEST_LOOP if one else FINEST_ARRAY
-    if found.tension_field:
-        finest = min(finest, FINEST_SLACK_LOOP if one else FINEST_SLACK_ARRAY)
+    finest = FINEST_SLACK_LOOP if isinstance(scene, LoopScene) else FINEST_SLACK_ARRAY
+    slackened = found.tension_field and refinement >= finest
     large = 4 * len(found.mesh.triangles) > MOST_TRIANGLES
     beyond_help = found.contact is None and found.meets_itself
-    return refinement >= finest or large or beyond_help or _finest_in_contact(found)
+    return slackened or large or beyond_help or _finest_in_contact(found)
 
 
 def _check_converged(found: MeshEquilibrium, *, lenient: bool) -> None:
@@ -148,10 +184,15 @@ def _mesh_error(found: MeshEquilibrium) -> float:
     """Error of the height, relative to it; infinite when there is no other mesh to tell it."""
     if math.isnan(found.coarser_height):
         return math.inf
-    change = abs(found.height - found.coarser_height) / _SHARES_OF_ERROR
+    change, height = abs(found.height - found.coarser_height), found.height
+    if found.free_motions:  # hinges leave the whole's height open, but not that of each loop
+        change = float(np.abs(found.loop_heights - found.coarser_loop_heights).max())
+        height = float(found.loop_heights.max())
+    change /= _SHARES_OF_ERROR
     if found.contact is not None:  # parts keep no more apart than this beyond their thickness
         change = max(change, REACH * found.wire_diameter)
-    return change / found.height if _buckled(found) else change / size_of(found.scene)
+    flat = height <= _FLAT * size_of(found.scene)
+    return change / (size_of(found.scene) if flat else height)
 
 
 def _buckled(found: MeshEquilibrium) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.errors import NotConvergedError
 from solver.mesh.descent import Solved, mass_of
@@ -19,6 +20,8 @@ from solver.mesh.sheet import SheetScene
 from solver.mesh.triangulation import Mesh
 from solver.mesh.wire_twist import twist_energies, twist_strays
 from solver.scene import LoopScene
+
+Vectors = NDArray[np.float64]
 
 
 def _fault(minimum: SparseMinimum) -> str:
@@ -51,6 +54,8 @@ def account(
     fabric = problem.fabric_on(len(problem.meshes) - 1)
     corners = positions[fabric.vertices]
     bare = len(corners) == 0
+    before = problem.meshes[max(0, len(problem.meshes) - 2)]
+    coarser = _last_on(before, solved)
     return MeshEquilibrium(
         scene=scene,
         mesh=mesh,
@@ -63,7 +68,8 @@ def account(
         factorizations=sum(s.minimum.factorizations for s in solved),
         height=total_height(positions, mesh.wires),
         loop_heights=loop_heights(positions, mesh.wires),
-        coarser_height=_coarser_height(problem, solved),
+        coarser_height=math.nan if coarser is None else total_height(coarser, before.wires),
+        coarser_loop_heights=loop_heights(positions if coarser is None else coarser, before.wires),
         smallest_stress=0.0 if bare else float(fabric.smallest_stress(corners).min()),
         compressed_fraction=0.0 if bare else float(np.mean(fabric.compressed(corners))),
         tension_field=problem.tension_field,
@@ -77,7 +83,7 @@ def _lowest_eigenvalue(solved: Solved, mesh: Mesh) -> float:
     return lowest_eigenvalue(hessian, minimum.factored, minimum.positions, mass_of(mesh))
 
 
-def _coarser_height(problem: MeshProblem, solved: list[Solved]) -> float:
-    before = problem.meshes[max(0, len(problem.meshes) - 2)]
-    coarser = [s.minimum for s in solved[:-1] if len(s.minimum.positions) == len(before.points)]
-    return total_height(coarser[-1].positions, before.wires) if coarser else math.nan
+def _last_on(mesh: Mesh, solved: list[Solved]) -> Vectors | None:
+    """Positions of the last minimum on a mesh before the end, if there is one."""
+    on = [s.minimum for s in solved[:-1] if len(s.minimum.positions) == len(mesh.points)]
+    return on[-1].positions if on else None

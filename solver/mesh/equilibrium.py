@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -70,6 +70,8 @@ class MeshEquilibrium:
     coarser_height : float
         The height on the mesh before the last, which is solved to a millionth of its energy; not a
         number when there is only one.
+    coarser_loop_heights : array (w,)
+        The same of each loop; that on the finest mesh when there is only one.
     smallest_stress : float
         Smallest principal stress of the fabric, units of E_f; negative where it would wrinkle.
     compressed_fraction : float
@@ -103,6 +105,7 @@ class MeshEquilibrium:
     perimeter: float = 2 * np.pi
     free_motions: int | None = None
     contact: ContactAccount | None = None
+    coarser_loop_heights: Vectors = field(default_factory=lambda: np.zeros(0))
 
     @property
     def wire_diameter(self) -> float:

@@ -54,8 +54,8 @@ def loop_heights(positions: Vectors, wires: tuple[Wire, ...]) -> Vectors:
     )
 
 
-def _common_axis(positions: Vectors, wires: tuple[Wire, ...]) -> Vectors:
-    """Give the unit axis (3,) of all closed wires; without any, that of least extent."""
+def common_axis(positions: Vectors, wires: tuple[Wire, ...]) -> Vectors:
+    """Unit axis (3,) of all closed wires; without any, that of least extent."""
     loops = [positions[wire.vertices] for wire in wires if wire.closed]
     if loops:
         total = np.sum([area_vector(loop) for loop in loops], axis=0)
@@ -66,7 +66,7 @@ def _common_axis(positions: Vectors, wires: tuple[Wire, ...]) -> Vectors:
 
 def total_height(positions: Vectors, wires: tuple[Wire, ...]) -> float:
     """Extent of all wires together along the axis of the closed ones, units of R."""
-    axis = _common_axis(positions, wires)
+    axis = common_axis(positions, wires)
     chains = [(positions[wire.vertices] @ axis, wire.closed) for wire in wires]
     tops = [_top(along) if closed else float(along.max()) for along, closed in chains]
     bottoms = [_top(-along) if closed else float((-along).max()) for along, closed in chains]

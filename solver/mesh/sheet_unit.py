@@ -22,6 +22,7 @@ def in_unit_of(scene: SheetScene, found: MeshEquilibrium) -> MeshEquilibrium:
         height=size * found.height,
         loop_heights=size * found.loop_heights,
         coarser_height=size * found.coarser_height,
+        coarser_loop_heights=size * found.coarser_loop_heights,
         perimeter=size * found.perimeter,
         contact=None if found.contact is None else _contact_in_unit(size, found.contact),
     )

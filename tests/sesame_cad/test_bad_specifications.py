@@ -84,12 +84,10 @@ WRONG_VALUES = [
     ("layout", 'terminals = "up"', 'must be one of "corner", "left", "right", "top", "bottom"'),
     ("layout", "missing = [1, 2]", "must be a list, each item a row and a column, …"),
     ("layout", "circles = [[1, 2]]", "must be a list, each item with three numbers, …"),
-    (
-        "layout",
-        'between = "kept"',
-        'must be "cut": fabric kept between the loops couples them, …',
-    ),
-    ("layout", 'between = "left"', 'must be "cut"'),
+    ("layout", 'between = "left"', 'must be one of "cut", "kept"'),
+    ("layout", 'shape = "each"', 'must be one of "auto", "cell", "coupled", "none"'),
+    ("model", 'fidelity = "scaling"', 'must be one of "auto", "compact", "mesh"'),
+    ("model", "refinement = 4", "must be from 0 to 3"),
     ("model", 'reading = "plane stress"', 'must be one of "plane-stress", "published"'),
     (
         "output",
@@ -113,8 +111,8 @@ WRONG_VALUES = [
 WRONG_KEYS_AND_PAIRS = [
     (
         "layout",
-        'kind = "hexagonal"',
-        'layout.shape = "cell": must be "none" for layout.kind = "hexagonal": its loops do not …',
+        'between = "kept"\nshape = "cell"',
+        'layout.shape = "cell": cannot be had: the fabric between the loops couples them …',
     ),
     ("layout", 'kind = "row"', 'layout.rows = 4: must be left out for layout.kind = "row"'),
     (
