@@ -9,6 +9,7 @@ import trimesh
 from numpy.typing import NDArray
 from trimesh.graph import connected_component_labels
 
+from sesame_cad.watertight import vertex_normals
 from solver.mesh.triangulation import Mesh, prolonged, refined
 
 Vectors = NDArray[np.float64]
@@ -49,14 +50,33 @@ class SheetShape:
         width, depth = np.ptp(np.concatenate(self.wires)[:, :2], axis=0)
         return float(width), float(depth)
 
-    @property
-    def size_mm(self) -> tuple[float, float, float]:
-        """Width, depth and height, with the wires' thickness."""
-        both = list(zip(self.wires, self.diameters_mm, strict=True))
+    def size_mm(self, fabric_mm: float) -> tuple[float, float, float]:
+        """Width, depth and height, with the thickness of wires and fabric, which may bulge."""
+        both = [
+            *zip(self.wires, self.diameters_mm, strict=True),
+            *((_surfaces(piece, fabric_mm), 0.0) for piece in self.pieces),
+        ]
         low = np.min([chain.min(axis=0) - thick / 2 for chain, thick in both], axis=0)
         high = np.max([chain.max(axis=0) + thick / 2 for chain, thick in both], axis=0)
         width, depth, height = high - low
         return float(width), float(depth), float(height)
+
+
+def _surfaces(piece: Piece, fabric_mm: float) -> Vectors:
+    """Points on both sides of a piece of fabric; its edge lies inside the wire."""
+    offset = vertex_normals(piece.points, piece.faces) * fabric_mm / 2
+    inner = np.setdiff1d(np.arange(len(piece.points)), open_edges(piece.faces))
+    return np.concatenate(
+        [piece.points[inner] + offset[inner], piece.points[inner] - offset[inner]]
+    )
+
+
+def open_edges(faces: Triangles) -> Triangles:
+    """Edges (e, 2) of one face only, from end to end as it runs along them."""
+    directed = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    size = int(faces.max()) + 1
+    there, back = directed @ [size, 1], directed @ [1, size]
+    return directed[~np.isin(there, back)]
 
 
 def sheet_shape(

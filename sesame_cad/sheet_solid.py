@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from sesame_cad.sheet_shape import Piece, SheetShape
+from sesame_cad.sheet_shape import Piece, SheetShape, open_edges
 from sesame_cad.solids import RIM_SHARE, quads, tube_mesh, union_solid
 from sesame_cad.watertight import vertex_normals
 
@@ -57,11 +57,3 @@ def slab(piece: Piece, thickness_mm: float, rim_mm: float) -> tuple[Vectors, Tri
     wall = quads(edge[:, 0], edge[:, 1], edge[:, 0] + count, edge[:, 1] + count)
     closed = np.concatenate([faces, faces[:, ::-1] + count, wall[:, ::-1]])
     return np.concatenate([points + offset, points - offset]), closed
-
-
-def open_edges(faces: Triangles) -> Triangles:
-    """Edges (e, 2) of one face only, from end to end as it runs along them."""
-    directed = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    size = int(faces.max()) + 1
-    there, back = directed @ [size, 1], directed @ [1, size]
-    return directed[~np.isin(there, back)]

@@ -26,8 +26,8 @@ def solid_sizes_mm(made: Design) -> dict[str, Size]:
         width, depth = _laid_size_mm(made.pattern.circuit.layout)
         sizes["flat"] = (width + wire, depth + wire, wire)
         if isinstance(state, CoupledState):
-            sizes["flat"] = state.flat_shape.size_mm
-            sizes[state.name] = state.shape.size_mm
+            sizes["flat"] = state.flat_shape.size_mm(made.spec.preview_thickness_mm)
+            sizes[state.name] = state.shape.size_mm(made.spec.preview_thickness_mm)
             continue
         width, depth = state.footprint_mm
         sizes[state.name] = (width + wire, depth + wire, state.height_mm + wire)
