@@ -138,16 +138,6 @@ class LayoutSection(Section):
         return tuple(sorted({loop.diameter_mm for loop in self.kinds_of_loops()}))
 
     @property
-    def tiles(self) -> bool:
-        """Whether loops fit together each in the shape that it takes alone.
-
-        Equal circles with contacts a quarter turn apart do, also when some are left out: every
-        contact that is left is as before, between two equal saddles on a crest or in a valley of
-        both, and a free edge asks for nothing. The lowest saddle of an ellipse is diagonal.
-        """
-        return self.kind in TILING and self.axis_ratio == 1 and len(set(self.diameters_mm)) <= 1
-
-    @property
     def tolerance_mm(self) -> float:
         """How far from touching circles may be given: they are rounded when they are typed in."""
         return ROUNDED_MM if self.kind == "circles" else TANGENCY_TOLERANCE_MM

@@ -12,6 +12,7 @@ from sesame_cad.errors import InputError
 from sesame_cad.files.stl import read_stl
 from sesame_cad.pipeline import pattern
 from sesame_cad.specification import specification_from
+from sesame_cad.specification.prediction import predicted_shape
 from sesame_cad.verification import verify
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -217,20 +218,19 @@ def test_ellipses_in_any_direction_make_a_pattern_that_breaks_no_rule():
 @pytest.mark.parametrize(
     ("keys", "said"),
     [
-        ({"axis_ratio": 1.5}, "layout.axis_ratio = 1.5"),
-        ({"kind": "row", "rows": None, "axis_ratio": 2}, "layout.axis_ratio = 2"),
+        ({"kind": "grid", "rows": 2, "axis_ratio": 1.5}, "ellipse is diagonal"),
+        ({"kind": "row", "axis_ratio": 2}, "ellipse is diagonal"),
+        ({"kind": "row", "diameters_mm": [70, 80]}, "different diameters"),
     ],
 )
-def test_the_shape_of_ellipses_is_refused(keys, said):
-    layout = {"kind": "grid", "rows": 2, "columns": 2, "loop_diameter_mm": 80, **keys}
-    given = {key: value for key, value in layout.items() if value is not None}
-    (fault,) = faults(given, machine=WIDE)
-    assert f'layout.shape = "cell": must be "none" for {said}: its loops' in fault
-
-
-def test_the_shape_of_unequal_loops_is_refused():
-    (fault,) = faults({"kind": "row", "diameters_mm": [25, 30]})
-    assert 'must be "none" for a row of unequal loops' in fault
+def test_one_cell_is_not_the_shape_of_ellipses_or_unequal_loops(keys, said):
+    size = {} if "diameters_mm" in keys else {"columns": 2, "loop_diameter_mm": 80}
+    layout = {**size, **keys}
+    (fault,) = faults({**layout, "shape": "cell"}, machine=WIDE)
+    assert 'layout.shape = "cell": cannot be had' in fault
+    assert said in fault
+    spec = specification_from({"wire": WIRE, "layout": layout, "machine": WIDE}, "x")
+    assert predicted_shape(spec.layout, spec.model, spec.wiring, spec.wire) == "coupled"
 
 
 @pytest.mark.parametrize(
