@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from patterns.circuit import CrossingKind
+from patterns.circuit import Crossing, CrossingKind
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
 from sesame_cad.answer_data import answer_data, solve_account
@@ -47,6 +47,7 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         Size and hash of each file by its path in the design's folder.
     """
     spec = design.spec
+    covered = covered_crossings(spec, design.pattern)
     return {
         "format": FORMAT_VERSION,
         "name": spec.name,
@@ -54,8 +55,8 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         "poisson": spec.fabric.poisson,
         "reading": spec.model.reading,
         **_shape_data(design),
-        "circuit": circuit_data(spec, design.pattern),
-        "circuits": circuits_data(spec, design.pattern),
+        "circuit": circuit_data(spec, design.pattern, covered),
+        "circuits": circuits_data(spec, design.pattern, covered),
         "electrics": electrics_data(spec, design.pattern),
         "stitch": stitch_data(design.pattern.plan, records)
         | machine_data(spec.machine, design.pattern.plan),
@@ -151,13 +152,13 @@ def _omitted_data(omitted: tuple[OmittedTerm, ...]) -> list[Data]:
     ]
 
 
-def circuit_data(spec: Specification, laid: Pattern) -> Data:
-    """Keys of all wire together; which crossings are covered is read from the stitches.
+def circuit_data(spec: Specification, laid: Pattern, covered: tuple[Crossing, ...]) -> Data:
+    """Keys of all wire together, with the crossings that thread covers.
 
     The resistance is that of all circuits in parallel.
     """
     circuit = laid.circuit
-    insulated = Counter(c.kind for c in covered_crossings(spec, laid))
+    insulated = Counter(c.kind for c in covered)
     contacts = sum(c.kind is CrossingKind.CONTACT for c in circuit.crossings)
     cold, hot = zip(*circuit_resistances_ohm(spec, circuit), strict=True)
     return {

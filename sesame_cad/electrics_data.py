@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from patterns.circuit import Circuit, CrossingKind
+from patterns.circuit import Circuit, Crossing, CrossingKind
 from patterns.electrics import Drive, Supply, resistance_ohm
 from patterns.net import SewnNet
-from sesame_cad.pipeline import Pattern, covered_crossings
+from sesame_cad.pipeline import Pattern
 from sesame_cad.specification import Specification
 
 Data = dict[str, Any]
@@ -34,10 +34,10 @@ def circuit_resistances_ohm(
     )
 
 
-def circuits_data(spec: Specification, laid: Pattern) -> list[Data]:
+def circuits_data(spec: Specification, laid: Pattern, covered: tuple[Crossing, ...]) -> list[Data]:
     """Keys of each circuit, in laying order; contacts are counted where they are passed last."""
     circuit = laid.circuit
-    covered = set(covered_crossings(spec, laid))
+    insulated = set(covered)
     resistances = circuit_resistances_ohm(spec, circuit)
     wires, names = spec.wires(len(circuit.parts)), circuit.part_names
     found: list[Data] = []
@@ -57,7 +57,7 @@ def circuits_data(spec: Specification, laid: Pattern) -> list[Data]:
                 "terminals_mm": [starts[0].tolist(), ends[0].tolist()],
                 "stages": len(part.stages),
                 "contacts": len(contacts),
-                "covered_contacts": sum(c in covered for c in contacts),
+                "covered_contacts": sum(c in insulated for c in contacts),
                 "contacts_with_earlier_circuits": sum(c.first_mm < begin for c in contacts),
             }
         )
