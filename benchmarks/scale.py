@@ -23,7 +23,7 @@ from sesame_cad.specification import specification_from
 from sesame_cad.verification import verify
 
 SIZES = (5, 10, 20, 35, 50)
-LOOP_MM, INTERVAL_MM = 65, 0.5
+LOOP_MM, INTERVAL_MM = 105, 0.8
 """With these, 50 × 50 loops take more than a million stitches."""
 
 
