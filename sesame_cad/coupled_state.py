@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from patterns.groups import touching_groups
 from patterns.layout import Layout
 from patterns.loop import Loop
 from sesame_cad.omissions import material_omissions
@@ -243,12 +244,7 @@ def _materials(spec: Specification, wire: WireSection, state: str) -> LoopMateri
 
 
 def _check_one_piece(layout: Layout) -> None:
-    reached = {0}
-    for _ in layout.loops:
-        for contact in layout.contacts:
-            if reached & {contact.first, contact.second}:
-                reached |= {contact.first, contact.second}
-    if len(reached) < len(layout.loops):
+    if len(touching_groups(layout)) > 1:
         raise SceneError(
             "the loops lie in groups that do not touch, and a coupled shape is that of one group: "
             'design each by itself, or let layout.shape be "none"'

@@ -6,12 +6,12 @@ import io
 import struct
 from collections.abc import Iterator, Sequence
 
-import numpy as np
 from pyembroidery import JefWriter
 
 from patterns.records import Command, Records
 from sesame_cad.errors import DesignFileError
-from sesame_cad.files.embroidery import coloured_pattern, records_of_moves, signed
+from sesame_cad.files.byte_pairs import byte_pair_moves
+from sesame_cad.files.embroidery import coloured_pattern, records_of_moves
 from sesame_cad.threads import Thread
 
 LOSSES = (
@@ -22,7 +22,6 @@ LOSSES = (
 )
 
 _DATE = "20000101000000"
-_CONTROL = 0x80
 _END = b"\x80\x10"
 
 
@@ -55,14 +54,4 @@ def _body(data: bytes) -> bytes:
 
 def _moves(body: bytes) -> Iterator[tuple[Command, int, int]]:
     kinds = {0x01: Command.STOP, 0x02: Command.JUMP}
-    pairs = iter(np.frombuffer(body, dtype=np.uint8).reshape(-1, 2).tolist())
-    for x, y in pairs:
-        if x != _CONTROL:
-            yield Command.STITCH, signed(x), signed(y)
-            continue
-        moved = next(pairs, None)
-        if y not in kinds or moved is None:
-            raise DesignFileError(f"the JEF file holds an unknown or broken command {y:02X}")
-        if kinds[y] is Command.STOP and any(moved):
-            raise DesignFileError("the JEF file stops and moves at once")
-        yield kinds[y], signed(moved[0]), signed(moved[1])
+    return byte_pair_moves(body, kinds, "JEF")
