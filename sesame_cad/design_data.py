@@ -78,18 +78,24 @@ def _shape_data(design: Design) -> Data:
         return dict.fromkeys(keys)
     cold, hot = design.states
     beta, beta_hot = cold.materials.beta, hot.materials.beta
-    reading, poisson = Reading(spec.model.reading), spec.fabric.poisson
+    oval = any(loop.axis_ratio != 1 for loop in design.pattern.circuit.layout.loops)
     return {
         "beta": beta,
         "beta_hot": beta_hot,
         "scaling_mm": spec.wire.diameter_mm**4 / spec.layout.diameter_mm**3,
-        "threshold": {
-            "critical_beta": critical_beta(spec.fabric.prestrain, poisson, reading),
-            "critical_strain_cold": critical_strain(beta, poisson, reading),
-            "critical_strain_hot": critical_strain(beta_hot, poisson, reading),
-        },
+        "threshold": None if oval else _threshold_data(spec, beta, beta_hot),
         "cold": state_data(cold),
         "hot": state_data(hot),
+    }
+
+
+def _threshold_data(spec: Specification, beta: float, beta_hot: float) -> Data:
+    """When a circle buckles; the law is not that of an ellipse."""
+    reading, poisson = Reading(spec.model.reading), spec.fabric.poisson
+    return {
+        "critical_beta": critical_beta(spec.fabric.prestrain, poisson, reading),
+        "critical_strain_cold": critical_strain(beta, poisson, reading),
+        "critical_strain_hot": critical_strain(beta_hot, poisson, reading),
     }
 
 

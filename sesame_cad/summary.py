@@ -71,17 +71,25 @@ def _shape_name(state: Data) -> str:
 
 
 def _model_rows(data: Data) -> list[tuple[str, str]]:
-    threshold = data["threshold"]
     return [
         ("design", data["name"]),
         ("β cold, hot", f"{data['beta']:.5f}, {data['beta_hot']:.5f}"),
+        *_threshold_rows(data),
+        ("d_w⁴/d_0³", f"{data['scaling_mm']:.3e} mm"),
+    ]
+
+
+def _threshold_rows(data: Data) -> list[tuple[str, str]]:
+    threshold = data["threshold"]
+    if threshold is None:
+        return [("prestrain", f"{data['strain']:g}")]
+    return [
         ("β at which it stays flat", f"{threshold['critical_beta']:.5f}"),
         (
             "prestrain, needed to buckle",
             f"{data['strain']:g}, cold {threshold['critical_strain_cold']:.4f}, "
             f"hot {threshold['critical_strain_hot']:.4f}",
         ),
-        ("d_w⁴/d_0³", f"{data['scaling_mm']:.3e} mm"),
     ]
 
 

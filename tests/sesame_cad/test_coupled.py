@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from patterns.layout import tangent_layout
+from patterns.records import plan_records
 from sesame_cad.coupled_state import coupled_scene, solve_coupled
+from sesame_cad.design_data import design_data
 from sesame_cad.errors import InputError
 from sesame_cad.files.stl import read_stl
 from sesame_cad.pictures.rendering import View, piece_patch, projected_bounds, render
-from sesame_cad.pipeline import design, pattern
+from sesame_cad.pipeline import Design, design, pattern
 from sesame_cad.preview import state_solid
 from sesame_cad.sheet_shape import Piece, open_edges
 from sesame_cad.sheet_solid import around
@@ -226,3 +228,12 @@ def test_the_hexagonal_example_is_coupled_and_can_be_sewn(run_command, tmp_path)
     assert data["circuit"]["loops"] == 7
     assert data["circuit"]["contacts"] == 12
     assert data["cold"]["height_error"] < 0.1
+
+
+@pytest.mark.parametrize(("ratio", "told"), [(1.0, True), (1.3, False)])
+def test_the_threshold_of_a_circle_is_not_told_of_ellipses(ratio, told):
+    states = tuple(solve_state(specification(PAIR), name, 28.0) for name in ("cold", "hot"))
+    spec = specification({**PAIR, "axis_ratio": ratio})
+    made = Design(spec, pattern(spec), states)
+    records = plan_records(made.pattern.plan, spec.patterns_machine())
+    assert (design_data(made, records, {})["threshold"] is not None) == told
