@@ -16,13 +16,12 @@ from sesame_cad.files.dst import write_dst
 from sesame_cad.files.dxf import outline_dxf
 from sesame_cad.files.plan_svg import plan_svg
 from sesame_cad.files.stitch_formats import write_embroidery
-from sesame_cad.files.stl import write_stl
 from sesame_cad.files.svg import outline_svg
 from sesame_cad.pictures.plan import plan_picture
 from sesame_cad.pictures.shapes import AnyView, ShapeView, SheetView, shapes_picture
 from sesame_cad.pictures.worksheet import worksheet_pdf
 from sesame_cad.pipeline import Design, design
-from sesame_cad.preview import solids
+from sesame_cad.shape_files import shape_files
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory
@@ -88,8 +87,7 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
     progress("worksheet")
     sheet = worksheet(made, records)
     yield f"worksheet/{spec.name}.pdf", worksheet_pdf(sheet, laid, spec.output.paper)
-    for name, solid in solids(made, progress):
-        yield f"shape/{name}.stl", write_stl(solid, f"{spec.name} {name}")
+    yield from shape_files(made, progress)
     if spec.output.pictures:
         progress("picture of the wire path")
         yield (
