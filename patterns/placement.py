@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from shapely import Polygon
@@ -47,5 +48,5 @@ def corner_marks(pieces: Sequence[Polygon], laid: LaidWire) -> tuple[Mark, ...]:
 def _close(stroke: np.ndarray) -> np.ndarray:
     """Points along a stroke that are near to one another."""
     share = np.linspace(0.0, 1.0, 13)[:, None]
-    parts = [a + share * (b - a) for a, b in zip(stroke, stroke[1:], strict=False)]
+    parts = [a + share * (b - a) for a, b in pairwise(stroke)]
     return np.concatenate(parts)

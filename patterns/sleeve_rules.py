@@ -59,9 +59,7 @@ def check_ties(
     )
 
 
-def check_in_hoop(
-    beams: BaseGeometry, field_mm: tuple[float, float]
-) -> tuple[Violation, ...]:
+def check_in_hoop(beams: BaseGeometry, field_mm: tuple[float, float]) -> tuple[Violation, ...]:
     """Beams and their frame lie inside the field of the hoop, where the needle may pass."""
     left, bottom, right, top = beams.bounds
     width, height = field_mm
@@ -118,4 +116,3 @@ def _at(
 ) -> Violation:
     x, y = place.tolist()
     return Violation(rule, message, x, y, *stitch, *found)
-

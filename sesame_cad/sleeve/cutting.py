@@ -128,5 +128,3 @@ def _coupons(spec: Specification) -> tuple[CutPiece, ...]:
         hole_coupon(holes, section.hole_edge_diameters),
         *kerf_coupons(kerfs, _SQUARE_MM),
     )
-
-

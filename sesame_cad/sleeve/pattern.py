@@ -150,7 +150,10 @@ def _ties(spec: Specification, circuit: Circuit, laid: LaidWire, *, framed: bool
 def _check(spec: Specification, made: SleevePattern) -> None:
     """Refuse what breaks a rule; the layer whose plan is at fault is shown."""
     for layer, found in (
-        (made.lower, (*cutting_violations(spec, made.cutting), *layer_violations(spec, made.lower))),
+        (
+            made.lower,
+            (*cutting_violations(spec, made.cutting), *layer_violations(spec, made.lower)),
+        ),
         (made.upper, layer_violations(spec, made.upper)),
         (made.lower, tie_violations(spec, made)),
     ):

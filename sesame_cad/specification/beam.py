@@ -102,11 +102,12 @@ class BeamSection(Section):
         description="the width in mm that the cut takes away; 0 for a blade",
     )
     overcut_mm: float = Field(
-        default=1.0,
+        default=0.0,
         ge=0,
         le=10,
         description=(
-            "the length in mm by which a blade goes on past the start of a cut; 0 for a laser"
+            "the length in mm by which a blade goes on past the start of a cut, 1 to 2 for one "
+            "that leaves a bridge; lines in cut files are closed only with 0"
         ),
     )
 
