@@ -62,17 +62,32 @@ def constraint_share(segment: BeamSegment, rest: Bistable) -> float:
     """Energy of the shorter strip, bent by the beam's end slopes, over the beam's.
 
     Rivets that press both strips' faces together would give the shorter one, which is pulled by P,
-    the beam's slopes ±α at its ends: of a tie bar that is EI λ α² coth(λ c/2), λ² = P/EI, less
-    what P loses by its own shortening (Timoshenko and Gere, Theory of Elastic Stability, 1961,
-    section 1.11, small slopes).
+    the beam's slopes at its ends: in even parts s = ±(α0 - α1)/2 and in odd parts r = (α0 + α1)/2.
+    A tie bar of length c has EI λ (s² coth h + r²/(coth h - 1/h)) then, with λ² = P/EI, h = λ c/2
+    (from d⁴z/dx⁴ = λ² d²z/dx² with those slopes and no height at the ends; small slopes).
     """
     state, strip = rest.unloaded[Side.UP], segment.strip
     second = segment.constraint_width_m * segment.constraint_thickness_m**3 / 12
     stiffness = strip.modulus_Pa * second
-    slope = abs(float(state.headings_rad[0]))
+    first, last = (float(state.headings_rad[k]) for k in (0, -1))
     rate = math.sqrt(abs(state.force_N) / stiffness)
     half = rate * strip.constraint_m / 2
-    return stiffness * rate * slope**2 / math.tanh(half) / state.bending_J
+    coth = 1 / math.tanh(half)
+    even, odd = (first - last) ** 2 / 4 * coth, (first + last) ** 2 / 4 / (coth - 1 / half)
+    return stiffness * rate * (even + odd) / state.bending_J
+
+
+def tie_rise_share(segment: BeamSegment, cold: SleeveCouple, hot: SleeveCouple) -> float:
+    """Rise of the wire from the valleys to the ties, over the couple's arm; the larger of both.
+
+    The loops are solved as if they were held at their valleys alone.
+    """
+    angle = np.pi / 2 + np.array([0.0, segment.tie_angle_rad])
+    shares: list[float] = []
+    for couple in (cold, hot):
+        valley, tie = couple.pressed.points_m(np.ones(2), angle)[:, 2]
+        shares.append(float(tie - valley) / couple.arm_m)
+    return max(shares)
 
 
 def _critical(found: Bistable) -> float:
@@ -106,6 +121,7 @@ def left_out(
     curved, ends = curved_share(segment, cold, hot, heated), ends_share(segment, heated)
     tie = constraint_share(segment, rest)
     weight = _sleeves_weight_share(segment, rest.unloaded[Side.UP])
+    rise = tie_rise_share(segment, cold, hot)
     terms = [
         OmittedTerm(
             "couples that do not fall evenly with the beam's curvature",
@@ -130,6 +146,12 @@ def left_out(
             "work of the weight over the beam's rise / bending energy",
             weight,
             matters=weight > _LITTLE,
+        ),
+        OmittedTerm(
+            "ties beside the valleys, which hold the wire down there too",
+            "rise of the free wire at the ties / the couple's arm",
+            rise,
+            matters=rise > _MUCH,
         ),
     ]
     stripe = segment.cell.stripe_m

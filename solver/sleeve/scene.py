@@ -31,6 +31,8 @@ class BeamSegment:
         Of the shorter strip.
     sleeves_kg : float
         Mass of both sleeves, for what gravity would do.
+    tie_angle_rad : float
+        Direction from the valleys in which ties hold the two rows together, for what that would do.
 
     Raises
     ------
@@ -46,6 +48,7 @@ class BeamSegment:
     constraint_width_m: float
     constraint_thickness_m: float
     sleeves_kg: float = 0.0
+    tie_angle_rad: float = 0.0
 
     def __post_init__(self) -> None:
         if self.loops < 1:

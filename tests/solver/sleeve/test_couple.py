@@ -16,9 +16,9 @@ def flat(request, cell):
 def _energy_per_length(flat, curvature):
     """U(p')/p with p' = p (1 + κ o(p'))."""
     pitch, pressed = PITCH, flat.pressed
-    for _ in range(12):
+    for _ in range(4):
         pitch = PITCH * (1 + curvature * SEAT.crest_m(pressed))
-        pressed = press(flat.pressed.cell, pitch, start=flat.pressed, tolerance=3e-4)
+        pressed = press(flat.pressed.cell, pitch, start=flat.pressed)
     return pressed.energy_J / PITCH
 
 
@@ -30,7 +30,7 @@ def test_couple_is_force_times_arm(flat):
 
 @pytest.mark.parametrize("curvature", [0.0, -8.0, 6.0])
 def test_the_couple_is_what_the_energy_falls_by(flat, curvature):
-    step = 0.5
+    step = 1.0
     ends = [_energy_per_length(flat, curvature + side * step) for side in (-1, 1)]
     fall = (ends[0] - ends[1]) / (2 * step)
     assert couple_on_curve(flat, SEAT, curvature) == pytest.approx(fall, rel=5e-3)

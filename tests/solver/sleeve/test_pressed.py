@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
@@ -30,7 +31,7 @@ def test_the_force_is_what_the_energy_falls_by(cell, stripe_m):
 
 def test_force_and_height_grow_as_the_sleeve_is_pressed(cell):
     curve = list(press_along(cell, [0.017, 0.015, 0.013, 0.011]))
-    for one, next_ in zip(curve[:-1], curve[1:], strict=True):
+    for one, next_ in pairwise(curve):
         assert next_.force_N > one.force_N
         assert next_.crest_height_m > one.crest_height_m
 
@@ -93,11 +94,11 @@ def test_the_fabrics_line_is_longer_than_its_chord(cell):
 
 @pytest.mark.parametrize("pitch_m", [0.001, 0.04, float("nan")])
 def test_pitches_out_of_range_are_refused(cell, pitch_m):
-    with pytest.raises(SceneError, match="pitch_m = .*must be at least 0.005 and less than"):
+    with pytest.raises(SceneError, match=r"pitch_m = .*must be at least 0.005 and less than"):
         press(cell, pitch_m)
 
 
 @pytest.mark.parametrize("stripe_m", [0.0, 0.04, float("nan")])
 def test_stripes_out_of_range_are_refused(cell, stripe_m):
-    with pytest.raises(SceneError, match="stripe_m = .*must be greater than 0 and less than"):
+    with pytest.raises(SceneError, match=r"stripe_m = .*must be greater than 0 and less than"):
         SleeveCell(cell.materials, 0.3, 0.45, stripe_m=stripe_m)

@@ -25,11 +25,14 @@ def test_a_thick_beam_lifts_the_row_until_it_clears(pressed):
     seat = Seat(0.016, 8e-3, 0.27e-3)
     lift = seat.valley_m(pressed)
     assert lift > WIRE / 2
-    # the wire's lowest point over the beam just rests on its face
-    angle = np.linspace(0, np.pi / 2, 2001)
-    wire = pressed.points_m(np.ones_like(angle), angle)
-    over = wire[np.abs(wire[:, 1]) <= seat.width_m / 2]
-    lowest = lift + over[:, 2].min() - wire[-1, 2] - WIRE / 2
+    # what is lowest over the beam just rests on its face
+    grid = np.meshgrid(np.linspace(0, 1, 101), np.linspace(0, np.pi / 2, 401))
+    radius, angle = (values.ravel() for values in grid)
+    point = pressed.points_m(radius, angle)
+    half_thick = np.where(radius == 1, WIRE, seat.fabric_m) / 2
+    valley = pressed.points_m(np.ones(1), np.array([np.pi / 2]))[0, 2]
+    over = np.abs(point[:, 1]) <= seat.width_m / 2
+    lowest = lift + (point[:, 2] - half_thick)[over].min() - valley
     assert lowest == pytest.approx(seat.thickness_m / 2, abs=0.15e-3)
     assert replace(seat, thickness_m=9e-3).valley_m(pressed) == pytest.approx(lift + 0.5e-3)
 

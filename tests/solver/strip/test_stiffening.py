@@ -69,5 +69,5 @@ def test_sleeves_make_it_harder_to_snap():
 
 @pytest.mark.parametrize("stiffening", [-0.1, 200.0, float("nan")])
 def test_stiffness_out_of_range_is_refused(stiffening):
-    with pytest.raises(SceneError, match="sleeve_stiffness_N_m2 = .*must be from 0 to 100 times"):
+    with pytest.raises(SceneError, match=r"sleeve_stiffness_N_m2 = .*must be from 0 to 100 times"):
         _stepped(stiffening)
