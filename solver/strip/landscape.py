@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from solver.errors import NotConvergedError
 from solver.strip.balance import Balance, Point, at_couple
-from solver.strip.basis import strip_basis
 from solver.strip.phase import amplitudes, at_rest, first_state, holding_phase, turned
 from solver.strip.scene import StripScene
-from solver.strip.snap import DEGREE
+from solver.strip.snap import scene_basis
 from solver.strip.state import positions
 
 Vectors = NDArray[np.float64]
@@ -76,7 +75,7 @@ def energy_landscape(scene: StripScene, samples: int = 73) -> Landscape:
     NotConvergedError
         Where no shape comes to rest at a phase, as under couples far beyond the critical ones.
     """
-    basis = strip_basis(scene.covered, scene.ends, DEGREE)
+    basis = scene_basis(scene)
     balance, modes = at_rest(basis, scene.shortening), amplitudes(basis, scene.ends)
     state = first_state(balance, scene.ends)
     free = turned(balance, modes, Point(state.x, state.force, 0.0), 0.0)

@@ -9,6 +9,9 @@ landscape; where it is level the strip is in balance, and where it is lowest sta
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,6 +28,8 @@ _SHORTEST_TURN = 1e-4
 _LONGEST_WAY = 0.4
 """Of a shape at once, relative to it; shapes whose ends have crossed lie further away."""
 _NOTHING_HELD = 0
+_STIFFENING_STEP = 0.25
+"""Of the logarithm of the covered part's stiffness."""
 
 
 def amplitudes(basis: StripBasis, ends: Ends) -> Vectors:
@@ -51,14 +56,19 @@ def holding_phase(balance: Balance, modes: Vectors, phase: float) -> Balance:
 
 
 def first_state(balance: Balance, ends: Ends) -> Point:
-    """State + without couple, from its closed form."""
+    """State + without couple, from its closed form, in steps where sleeves stiffen it."""
     basis = balance.basis
     mode = Elastica(balance.shortening, 1 if ends is Ends.PINNED else 2)
     heading = mode.heading(basis.arc, ends)
     root = np.sqrt(basis.weight)
     x = np.linalg.lstsq(root[:, None] * basis.heading, root * heading, rcond=None)[0]
     shape = np.asarray(x, dtype=np.float64)
-    return at_couple(balance, Point(shape, np.array([mode.force, 0.0]), 0.0), 0.0)
+    point = Point(shape, np.array([mode.force, 0.0]), 0.0)
+    steps = math.ceil(math.log1p(basis.stiffening) / _STIFFENING_STEP)
+    for step in range(steps + 1):
+        part = math.expm1(step * math.log1p(basis.stiffening) / max(steps, 1))
+        point = at_couple(replace(balance, basis=basis.stiffened(part)), point, 0.0)
+    return point
 
 
 def turned(balance: Balance, modes: Vectors, start: Point, phase: float) -> Point:
