@@ -13,6 +13,7 @@ from sesame_cad.files.stitch_formats import LOSSES
 from sesame_cad.pipeline import Design, covered_crossings
 from sesame_cad.sleeve.cutting import Cutting, Sheet
 from sesame_cad.sleeve.design import SleeveDesign
+from sesame_cad.sleeve.hold import Hold
 from sesame_cad.sleeve_prediction.data import bistable_data, sleeve_data
 from sesame_cad.specification import Specification
 from sesame_cad.specification.beam import BeamSection
@@ -35,7 +36,7 @@ def sleeve_design_data(design: SleeveDesign, files: dict[str, Data]) -> Data:
         "strain": spec.fabric.prestrain,
         "poisson": spec.fabric.poisson,
         "reading": spec.model.reading,
-        "beams": beams_data(spec, design.pattern.cutting),
+        "beams": beams_data(spec, design.pattern.cutting) | {"hold": _hold_data(design.hold)},
         "sleeve": None if found is None else sleeve_data(found),
         "bistable": None if found is None else bistable_data(found),
         "hoopings": {
@@ -94,6 +95,17 @@ def beams_data(spec: Specification, made: Cutting) -> Data:
         "frame": _frame_data(made.laid[0], spec.beam) if spec.beam.frame_tabs else None,
         "mat": spec.beam.mat,
         "sheets": {sheet.name: _sheet_data(sheet) for sheet in made.sheets},
+    }
+
+
+def _hold_data(hold: Hold | None) -> Data | None:
+    """Keys of how hooks hold the predicted sleeve."""
+    if hold is None:
+        return None
+    return {
+        "hook_reach_mm": hold.reach_mm,
+        "tie_from_axis_mm": {"cold": hold.cold_mm, "hot": hold.hot_mm},
+        "both_sides_hot": hold.hot_too,
     }
 
 

@@ -8,6 +8,7 @@ from functools import cached_property, partial
 
 from patterns.records import Records, plan_records
 from sesame_cad.pipeline import Design, Pattern, refusing
+from sesame_cad.sleeve.hold import Hold, hold
 from sesame_cad.sleeve.pattern import LOWER, UPPER, SleevePattern, sleeve_pattern
 from sesame_cad.sleeve_prediction.segment import predict_sleeve
 from sesame_cad.specification import Specification
@@ -37,11 +38,14 @@ class SleeveDesign:
     pattern : SleevePattern
     prediction : SegmentPrediction or None
         None when none is asked for (`layout.shape = "none"`).
+    hold : Hold or None
+        How the hooks hold the predicted sleeve.
     """
 
     spec: Specification
     pattern: SleevePattern
     prediction: SegmentPrediction | None
+    hold: Hold | None
 
     @cached_property
     def hoopings(self) -> dict[str, Design]:
@@ -77,9 +81,10 @@ def sleeve_design(
     progress("rows, ties and beams")
     pattern = refusing(spec, partial(sleeve_pattern, spec))
     if spec.layout.shape == "none":
-        return SleeveDesign(spec, pattern, None)
+        return SleeveDesign(spec, pattern, None, None)
     progress("sleeves and the beam that they bend")
-    return SleeveDesign(spec, pattern, predict_sleeve(spec))
+    found = predict_sleeve(spec)
+    return SleeveDesign(spec, pattern, found, hold(spec, found))
 
 
 def _layer_spec(spec: Specification, name: str) -> Specification:

@@ -29,6 +29,12 @@ def _warnings(data: Data) -> list[str]:
         if left["matters"]:
             size = "" if left["value"] is None else f" = {left['value']:.3g}"
             found.append(f"{left['term']} is left out, and matters: {left['measure']}{size}")
+    hold = data["beams"]["hold"]
+    if hold is not None and not hold["both_sides_hot"]:
+        found.append(
+            f"with both sides hot the ties move out to {hold['tie_from_axis_mm']['hot']:.1f} mm "
+            f"from the beam's axis, past the hooks' tips at {hold['hook_reach_mm']:.1f} mm"
+        )
     for layer in data["hoopings"].values():
         found += layer["electrics"]["warnings"]
     return found
