@@ -16,7 +16,7 @@ def check_blocks(subject: Subject) -> list[Violation]:
 
     Each must be there once, in order, and nothing else; stripes only when they are asked for. The
     cover before a further wire may be left out, for that wire need not touch another. Ties to
-    another layer, if any, come last; `patterns.sleeve_rules` says where they must be.
+    another layer, if any, come last; `patterns.rules.ties` says where they must be.
     """
     circuit = subject.circuit
     parts = [(block.kind, block.stage) for block in subject.plan.blocks]

@@ -25,7 +25,7 @@ from patterns.registration import Mark, registration_marks
 from patterns.rows import row_wires
 from patterns.rules import check_outline, check_plan
 from patterns.rules.net import check_net
-from patterns.sleeve_rules import check_in_hoop, check_ties
+from patterns.rules.ties import check_in_hoop, check_ties
 from patterns.sleeve_ties import tie_block
 from patterns.stitch_plan import stitch_plan
 from patterns.terminals import Side
