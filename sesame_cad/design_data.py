@@ -22,6 +22,7 @@ from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.specification.machine import MachineSection
 from sesame_cad.state import CellState
+from sesame_cad.threads import THREADED
 from solver.equilibrium import Equilibrium
 from solver.ladder.answer import Rung
 from solver.reading import Reading
@@ -200,5 +201,5 @@ def machine_data(machine: MachineSection, plan: StitchPlan) -> Data:
     """Keys of the stitch file that depend on the machine: its time, and the thread of each kind."""
     return {
         "sewing_time_min": round(machine.pace.plan_s(plan) / 60, 1),
-        "threads": {str(kind): one for kind, one in zip(BlockKind, machine.threads, strict=True)},
+        "threads": {str(kind): one for kind, one in zip(THREADED, machine.threads, strict=True)},
     }

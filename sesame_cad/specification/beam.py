@@ -25,7 +25,7 @@ class BeamSection(Section):
         default=160.0, ge=5, le=5000, description="the length in mm of a beam, one bistable segment"
     )
     width_mm: float = Field(
-        default=12.0, ge=1, le=500, description="the width in mm of a beam without its hooks"
+        default=20.0, ge=1, le=500, description="the width in mm of a beam without its hooks"
     )
     thickness_mm: float = Field(
         default=POLYCARBONATE_THICKNESS_MM,
@@ -43,7 +43,7 @@ class BeamSection(Section):
         default=POLYCARBONATE_G_CM3, ge=0.1, le=25, description="the sheet's density in g/cm3"
     )
     constraint_length_mm: float = Field(
-        default=152.0,
+        default=156.0,
         ge=5,
         le=5000,
         description="the length in mm of the shorter strip that is riveted to both ends of a beam",
@@ -67,10 +67,13 @@ class BeamSection(Section):
         default=2.0, ge=0.3, le=50, description="the radius in mm of the strips' corners"
     )
     hook_height_mm: float = Field(
-        default=1.5,
+        default=3.5,
         ge=0.5,
         le=20,
-        description="the height in mm of the hooks beside a beam that hold its sleeve compressed",
+        description=(
+            "the height in mm of the hooks beside a beam, which reach the ties of its compressed "
+            "sleeve and hold it so"
+        ),
     )
     frame_tabs: bool = Field(
         default=True,
@@ -102,11 +105,12 @@ class BeamSection(Section):
         description="the width in mm that the cut takes away; 0 for a blade",
     )
     overcut_mm: float = Field(
-        default=1.0,
+        default=0.0,
         ge=0,
         le=10,
         description=(
-            "the length in mm by which a blade goes on past the start of a cut; 0 for a laser"
+            "the length in mm by which a blade goes on past the start of a cut, 1 to 2 for one "
+            "that leaves a bridge; lines in cut files are closed only with 0"
         ),
     )
 

@@ -43,7 +43,7 @@ class SleeveSection(Section):
         description="the length in mm of a tie, from hole to hole across both wires",
     )
     needle_to_beam_mm: float = Field(
-        default=1.0,
+        default=0.8,
         ge=0.2,
         le=20,
         description="the least free space in mm between a tie's needle and beams or their frame",
