@@ -111,12 +111,13 @@ def couple_on_curve(flat: SleeveCouple, seat: Seat, curvature_per_m: float) -> f
     SceneError, NotConvergedError
         As `sleeve_couple`.
     """
-    pitch = flat.pressed.pitch_m
-    own, last = flat, 0.0
+    pitch, cell = flat.pressed.pitch_m, flat.pressed.cell
+    stretched, arm, own = pitch, flat.arm_m, flat.pressed
     for _ in range(_FIXED_POINT_STEPS):
-        stretched = pitch * (1 + curvature_per_m * own.arm_m)
+        last, stretched = stretched, pitch * (1 + curvature_per_m * arm)
         if abs(stretched - last) < _FIXED * pitch:
             break
-        own = sleeve_couple(flat.pressed.cell, seat, stretched, start=flat.pressed)
-        last = stretched
-    return max(0.0, own.couple_N_m) / (1 - pitch * curvature_per_m * own.arm_slope)
+        own = press(cell, stretched, start=own)
+        arm = seat.crest_m(own)
+    bent = sleeve_couple(cell, seat, stretched, start=own)
+    return max(0.0, bent.couple_N_m) / (1 - pitch * curvature_per_m * bent.arm_slope)
