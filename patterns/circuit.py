@@ -166,9 +166,9 @@ class Circuit:
     @property
     def closed(self) -> bool:
         """Whether the wire, its tails taken off, is one curve that ends where it starts."""
-        wire = self.wire
-        gaps, _ = wire.joints()
-        (leaves,), _ = wire.pieces[0].at(np.array([wire.pieces[0].length_mm]))
-        (returns,), _ = wire.pieces[-1].at(np.array([0.0]))
+        gaps, _ = self.wire.joints()
+        comes, goes = self.tails
+        (leaves,), _ = comes.pieces[-1].at(np.array([comes.pieces[-1].length_mm]))
+        (returns,), _ = goes.pieces[0].at(np.array([0.0]))
         gap = max(float(gaps.max(initial=0.0)), float(np.hypot(*(leaves - returns))))
         return gap < CLOSING_TOLERANCE_MM

@@ -44,9 +44,13 @@ class Cut:
 
     def polyline(self, tolerance_mm: float = CHORD_TOLERANCE_MM) -> Vectors:
         """Give the blade's way (n, 2), once round and on through the overcut."""
+        return self.way.polyline(tolerance_mm)
+
+    @property
+    def way(self) -> WirePath:
+        """The blade's way in lines and arcs, once round and on through the overcut."""
         pieces = self._contour.pieces
-        again = _beginning(pieces, self.overcut_mm)
-        return WirePath((*pieces, *again)).polyline(tolerance_mm)
+        return WirePath((*pieces, *_beginning(pieces, self.overcut_mm)))
 
     @property
     def _contour(self) -> Contour:

@@ -50,6 +50,11 @@ class Frame:
             corner_radius_mm=self.corner_radius_mm,
         )
 
+    def size_mm(self, beam_length_mm: float, count: int) -> tuple[float, float]:
+        """Width and height of the frame around so many beams."""
+        width = beam_length_mm + 2 * (self.tab_length_mm + self.border_mm)
+        return width, count * self.pitch_mm + 2 * self.border_mm
+
 
 def framed_beams(beam: Beam, count: int, frame: Frame, name: str = "framed beams") -> CutPiece:
     """Give beams and frame as one piece; what lies between them are openings.

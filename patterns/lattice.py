@@ -86,6 +86,22 @@ def row_loops(
     return centred(tuple(loop for loop in loops if loop.cell not in left_out))
 
 
+def rows_apart(
+    rows: int, columns: int, loop_diameter_mm: float, row_pitch_mm: float
+) -> tuple[Loop, ...]:
+    """Lay rows of touching circles, the rows at a pitch of their own; row by row from below."""
+    return tuple(
+        Loop(
+            (column - (columns - 1) / 2) * loop_diameter_mm,
+            (row - (rows - 1) / 2) * row_pitch_mm,
+            loop_diameter_mm,
+            cell=(row, column),
+        )
+        for row in range(rows)
+        for column in range(columns)
+    )
+
+
 def centred(loops: tuple[Loop, ...]) -> tuple[Loop, ...]:
     """Move loops so that the middle of the box around them is the origin."""
     if not loops:

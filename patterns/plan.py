@@ -27,6 +27,7 @@ class BlockKind(StrEnum):
     WIRE = "wire"
     COVER = "cover"
     STRIPES = "stripes"
+    TIES = "ties"
 
     @property
     def is_wire(self) -> bool:
@@ -60,7 +61,7 @@ class Block:
         What the operator does at the stop before the block.
     stage : int
         Of wire, which stage of the circuit is laid, from 0; of a cover, the stage that is laid next
-        on top of it; of marks and stripes, 0.
+        on top of it; of marks, stripes and ties, 0.
     """
 
     kind: BlockKind

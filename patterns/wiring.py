@@ -94,6 +94,19 @@ def several_wires(
     check_spaced(layout)
     check_groups(layout, groups)
     places = exits(layout, groups, tail_length_mm, smallest_bends_mm)
+    return wires_from(layout, groups, places, tail_length_mm)
+
+
+def wires_from(
+    layout: Layout, groups: tuple[Group, ...], places: tuple[Exit, ...], tail_length_mm: float
+) -> Wiring:
+    """Run one wire through each group of loops whose tails leave at given places.
+
+    Parameters
+    ----------
+    places
+        One a group; loops are indices into ``layout.loops``.
+    """
     circuits = tuple(
         _circuit(layout, group, place, tail_length_mm)
         for group, place in zip(groups, places, strict=True)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from sesame_cad.omitted_data import omitted_data
+
 if TYPE_CHECKING:  # the scaling rung must not load what the others need
     from solver.equilibrium import Equilibrium
     from solver.ladder.answer import Answer
@@ -36,15 +38,7 @@ def answer_data(answer: Answer, seconds: float) -> Data:
         "contact": None,
         **details,
         "seconds": round(seconds, 6),
-        "omitted_terms": [
-            {
-                "term": left.term,
-                "measure": left.measure,
-                "value": None if math.isnan(left.value) else left.value,
-                "matters": left.matters,
-            }
-            for left in answer.omitted
-        ],
+        "omitted_terms": omitted_data(answer.omitted),
         "rung": str(answer.rung),
         "reason": answer.reason,
         "terms": list(answer.terms),

@@ -18,6 +18,7 @@ COMMANDS = MappingProxyType(
         "design": "Make the fabrication package of an array.",
         "check": "Read a design back from disk and verify every file.",
         "solve": "Solve one dimensionless loop.",
+        "chain": "Write the curve of a chain of beams, each in one of its states.",
         "export-evolver": "Write a loop as a datafile of Surface Evolver.",
         "machines": "List machine profiles, or print one to start your own from.",
         "coupon": "Make a coupon to find the settings for your wire.",

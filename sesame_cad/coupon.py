@@ -15,7 +15,7 @@ from sesame_cad.errors import InputError
 from sesame_cad.files.block_list import block_list_csv
 from sesame_cad.files.dst import write_dst
 from sesame_cad.files.stitch_formats import write_embroidery
-from sesame_cad.package import file_data
+from sesame_cad.package_files import file_data
 from sesame_cad.pictures.coupon import coupon_picture
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory

@@ -16,14 +16,15 @@ from sesame_cad.electrics_data import (
     in_parallel_ohm,
 )
 from sesame_cad.files.stitch_formats import LOSSES
+from sesame_cad.omitted_data import omitted_data
 from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.specification.machine import MachineSection
 from sesame_cad.state import CellState
+from sesame_cad.threads import THREADED
 from solver.equilibrium import Equilibrium
 from solver.ladder.answer import Rung
-from solver.omitted import OmittedTerm
 from solver.reading import Reading
 from solver.threshold import critical_beta, critical_strain
 
@@ -113,7 +114,7 @@ def loop_data(found: Equilibrium, seconds: float) -> Data:
         **solve_account(found),
         "height_change": found.height_change,
         "seconds": round(seconds, 6),
-        "omitted_terms": _omitted_data(found.omitted),
+        "omitted_terms": omitted_data(found.omitted),
     }
 
 
@@ -134,7 +135,7 @@ def state_data(state: ShapeState) -> Data:
         "footprint_mm": [width, depth],
         "energy_mJ": state.energy_mJ,
         "array_energy_mJ": state.array_energy_mJ,
-        "omitted_terms": _omitted_data(state.omitted),
+        "omitted_terms": omitted_data(state.omitted),
     }
 
 
@@ -149,13 +150,6 @@ def _solve_data(state: ShapeState) -> Data:
         "height_error": state.height_error,
         "pitch_over_diameter": None if pitch is None else pitch / (2 * state.radius_mm),
     }
-
-
-def _omitted_data(omitted: tuple[OmittedTerm, ...]) -> list[Data]:
-    return [
-        {"term": t.term, "measure": t.measure, "value": t.value, "matters": t.matters}
-        for t in omitted
-    ]
 
 
 def circuit_data(spec: Specification, laid: Pattern, covered: tuple[Crossing, ...]) -> Data:
@@ -207,5 +201,5 @@ def machine_data(machine: MachineSection, plan: StitchPlan) -> Data:
     """Keys of the stitch file that depend on the machine: its time, and the thread of each kind."""
     return {
         "sewing_time_min": round(machine.pace.plan_s(plan) / 60, 1),
-        "threads": {str(kind): one for kind, one in zip(BlockKind, machine.threads, strict=True)},
+        "threads": {str(kind): one for kind, one in zip(THREADED, machine.threads, strict=True)},
     }

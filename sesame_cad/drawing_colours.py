@@ -12,6 +12,7 @@ STAGES = ("#0072B2", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#8B5A2B")
 """Of the stages of the wire; after the last the first comes again."""
 
 COVER, STRIPE, MARK = "#009E73", "#F0E442", "#000000"
+TIE = "#B8860B"
 
 
 def stage_colour(stage: int) -> str:
@@ -23,4 +24,9 @@ def block_colour(block: Block) -> str:
     """Colour of the stitches of a block; those that tie wire have that of its stage."""
     if block.kind.is_wire:
         return stage_colour(block.stage)
-    return {BlockKind.MARKS: MARK, BlockKind.COVER: COVER, BlockKind.STRIPES: STRIPE}[block.kind]
+    return {
+        BlockKind.MARKS: MARK,
+        BlockKind.COVER: COVER,
+        BlockKind.STRIPES: STRIPE,
+        BlockKind.TIES: TIE,
+    }[block.kind]

@@ -2,37 +2,35 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 from patterns.records import Records, plan_records
 from sesame_cad.coupled_state import CoupledState
 from sesame_cad.design_data import design_data
-from sesame_cad.files.block_list import block_list_csv
-from sesame_cad.files.dst import write_dst
-from sesame_cad.files.dxf import outline_dxf
 from sesame_cad.files.plan_svg import plan_svg
-from sesame_cad.files.stitch_formats import write_embroidery
-from sesame_cad.files.svg import outline_svg
+from sesame_cad.package_files import (
+    Data,
+    Files,
+    Progress,
+    cut_files,
+    stitch_files,
+    worksheet_file,
+    write_files,
+)
 from sesame_cad.pictures.plan import plan_picture
 from sesame_cad.pictures.shapes import AnyView, ShapeView, SheetView, shapes_picture
-from sesame_cad.pictures.worksheet import worksheet_pdf
 from sesame_cad.pipeline import Design, design
 from sesame_cad.shape_files import shape_files
 from sesame_cad.shape_state import ShapeState
+from sesame_cad.sleeve.package import sleeve_files
 from sesame_cad.specification import Specification
-from sesame_cad.staging import DESIGN_FILE, staged_directory
-from sesame_cad.threads import threads_of
-from sesame_cad.worksheet import worksheet
-
-Progress = Callable[[str], None]
+from sesame_cad.specification.layout import SLEEVE
+from sesame_cad.staging import staged_directory
 
 
-def write_package(spec: Specification, target: Path, progress: Progress) -> dict[str, Any]:
-    """Design an array and write its folder.
+def write_package(spec: Specification, target: Path, progress: Progress) -> Data:
+    """Design an array, or beams with sleeves, and write the folder.
 
     The folder is made aside and moved into place when it is complete, so that a failure leaves an
     earlier result as it was.
@@ -50,52 +48,35 @@ def write_package(spec: Specification, target: Path, progress: Progress) -> dict
         When there is no shape to rely on.
     """
     with staged_directory(target) as folder:
+        if spec.layout.kind == SLEEVE:
+            return write_files(folder, *sleeve_files(spec, progress))
         return _fill(folder, design(spec, progress), progress)
 
 
-def write_design(made: Design, target: Path, progress: Progress) -> dict[str, Any]:
+def write_design(made: Design, target: Path, progress: Progress) -> Data:
     """Write the folder of a design that was made; see `write_package`."""
     with staged_directory(target) as folder:
         return _fill(folder, made, progress)
 
 
-def _fill(folder: Path, made: Design, progress: Progress) -> dict[str, Any]:
+def _fill(folder: Path, made: Design, progress: Progress) -> Data:
     records = plan_records(made.pattern.plan, made.spec.patterns_machine())
-    files: dict[str, dict[str, Any]] = {}
-    for path, content in _files(made, records, progress):
-        _write(folder / path, content)
-        files[path] = file_data(content)
-    data = design_data(made, records, dict(sorted(files.items())))
-    text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
-    _write(folder / DESIGN_FILE, f"{text}\n".encode())
-    return data
+    data_of = partial(design_data, made, records)
+    return write_files(folder, _files(made, records, progress), data_of)
 
 
-def file_data(content: bytes) -> dict[str, Any]:
-    """Size and hash by which a file is known again."""
-    return {"bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
-
-
-def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple[str, bytes]]:
+def _files(made: Design, records: Records, progress: Progress) -> Files:
     """Every file but `design.json`, by its path in the folder."""
     spec, laid = made.spec, made.pattern
     progress("stitch files")
-    threads = threads_of(laid.plan, spec.machine)
-    for name in spec.output.formats:
-        if name == "dst":
-            yield f"stitch/{spec.name}.dst", write_dst(records, spec.name, spec.dst_switches())
-        else:
-            yield f"stitch/{spec.name}.{name}", write_embroidery(records, name, threads)
-    yield f"stitch/{spec.name}.blocks.csv", block_list_csv(laid.plan, threads).encode()
+    yield from stitch_files(made, records)
     progress("cut lines")
-    yield f"cut/{spec.name}.svg", outline_svg(laid.outline, laid.marks, spec.name).encode()
-    yield f"cut/{spec.name}.dxf", outline_dxf(laid.outline, laid.marks).encode()
+    yield from cut_files(made)
     progress("drawing of the plan")
     drawing = plan_svg(laid, spec.diameters_mm, spec.name)
     yield f"plan/{spec.name}.svg", drawing.encode()
     progress("worksheet")
-    sheet = worksheet(made, records)
-    yield f"worksheet/{spec.name}.pdf", worksheet_pdf(sheet, laid, spec.output.paper)
+    yield worksheet_file(made, records)
     yield from shape_files(made, progress)
     if spec.output.pictures:
         yield from pictures(made, progress)
@@ -124,8 +105,3 @@ def _view(spec: Specification, state: ShapeState) -> AnyView:
         state.centres_mm(),
         spec.wire.diameter_mm,
     )
-
-
-def _write(path: Path, content: bytes) -> None:
-    path.parent.mkdir(exist_ok=True)
-    path.write_bytes(content)

@@ -98,7 +98,7 @@ def pattern(spec: Specification) -> Pattern:
         When the array cannot be sewn or cut as specified; `BrokenRulesError` when it was laid, but
         breaks a design rule.
     """
-    return _refusing(spec, partial(_pattern, spec))
+    return refusing(spec, partial(_pattern, spec))
 
 
 def design(spec: Specification, progress: Callable[[str], None] = lambda _: None) -> Design:
@@ -130,12 +130,12 @@ def _state(
     progress(f"{name} shape")
     if spec.predicted_shape == "coupled":
         layout = laid.circuit.layout
-        return _refusing(spec, partial(solve_coupled, spec, layout, name, progress))
+        return refusing(spec, partial(solve_coupled, spec, layout, name, progress))
     modulus = spec.wire.modulus_cold_GPa if name == "cold" else spec.wire.modulus_hot_GPa
-    return _refusing(spec, partial(solve_state, spec, name, modulus))
+    return refusing(spec, partial(solve_state, spec, name, modulus))
 
 
-def _refusing(spec: Specification, work: Callable[[], Result]) -> Result:
+def refusing(spec: Specification, work: Callable[[], Result]) -> Result:
     """Do the work; what geometry or mechanics refuse is the specification's fault."""
     try:
         return work()
@@ -165,7 +165,7 @@ def _pattern(spec: Specification) -> Pattern:
     )
     laid = Pattern(circuit, outline, marks, plan, net)
     if violations:
-        raise BrokenRulesError(laid, violations, *_first_of_each_rule(spec, violations))
+        raise BrokenRulesError(laid, violations, *first_of_each_rule(spec, violations))
     return laid
 
 
@@ -178,7 +178,7 @@ def net_of_stitches(spec: Specification, circuit: Circuit, plan: StitchPlan) -> 
     return sewn_net(plan, kinds, spec.patterns_stitching().largest_cover_gap_mm)
 
 
-def _first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) -> Iterator[str]:
+def first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) -> Iterator[str]:
     """Say each broken rule once: a setting that breaks it does so all over the array."""
     counts = Counter(violation.rule for violation in violations)
     firsts = {violation.rule: violation for violation in reversed(violations)}

@@ -8,6 +8,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from sesame_cad.tables import grid
+
 Data = dict[str, Any]
 
 
@@ -25,14 +27,14 @@ def print_design(data: Data, folder: Path) -> None:
     for warning in data["electrics"]["warnings"]:
         console.print(f"[yellow]warning[/]: {warning}", soft_wrap=True)
     if shown:
-        console.print(_grid(_model_rows(data)))
+        console.print(grid(_model_rows(data)))
         console.print(_states(data))
         for name in shown:
             if data[name]["rung"] == "mesh":
                 console.print(_coupled_line(name, data[name]))
     else:
         console.print(f'{data["name"]}: no shape is predicted (layout.shape = "none")')
-    console.print(_grid(_workshop_rows(data)))
+    console.print(grid(_workshop_rows(data)))
     console.print(f"wrote {folder}/", soft_wrap=True)
 
 
@@ -55,7 +57,7 @@ def print_answer(data: Data) -> None:
         ("steps", f"{data['steps']} on {data['unknowns']} unknowns"),
         ("seconds", f"{data['seconds']:.6f}"),
     ]
-    console.print(_grid([row for row in rows if row[1]]))
+    console.print(grid([row for row in rows if row[1]]))
     for left in data["omitted_terms"]:
         mark = "[yellow]warning[/], left out" if left["matters"] else "left out"
         value = "" if left["value"] is None else f" = {left['value']:.3g}"
@@ -158,10 +160,3 @@ def _electrics_rows(data: Data) -> list[tuple[str, str]]:
         wire = f"{made['wire_length_mm']:.0f} mm of {made['wire_diameter_mm']:g} mm wire"
         rows.append((f"circuit {made['name']}", f"{len(made['loops'])} loops, {wire}, {needs}"))
     return rows
-
-
-def _grid(rows: list[tuple[str, str]]) -> Table:
-    table = Table.grid(padding=(0, 2))
-    for name, value in rows:
-        table.add_row(name, value)
-    return table

@@ -8,6 +8,9 @@ from patterns.plan import Block, BlockKind, StitchPlan
 from sesame_cad.colour_names import colour_name, rgb
 from sesame_cad.specification.machine import MachineSection
 
+THREADED = (BlockKind.MARKS, BlockKind.WIRE, BlockKind.COVER, BlockKind.STRIPES)
+"""Kinds of blocks in the order of the machine's threads; ties are sewn with that of stripes."""
+
 SHADES = 4
 """So many stages of the wire after one another have colours of their own."""
 
@@ -81,6 +84,7 @@ def _thread(block: Block, machine: MachineSection) -> Thread:
         BlockKind.MARKS: ("marking thread", 1, marks),
         BlockKind.COVER: ("cover thread", 2, covers),
         BlockKind.STRIPES: ("thread that does not stretch", 3, stripes),
+        BlockKind.TIES: ("thread that does not stretch", 3, stripes),
     }[block.kind]
     if machine.hand_guided:
         return Thread(material, "embroidery foot", 1, colour)

@@ -4,52 +4,34 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from patterns.errors import PatternError
-from patterns.violation import Violation
-from sesame_cad.cut_checks import CUT_READERS, cut_faults
 from sesame_cad.design_data import FORMAT_VERSION, design_data
 from sesame_cad.differences import differences
 from sesame_cad.errors import DesignFileError, InputError
-from sesame_cad.package import file_data
+from sesame_cad.package_checks import (
+    MOST_FAULTS,
+    Verification,
+    fabric_faults,
+    file_faults,
+    limited,
+    sewn_faults,
+)
 from sesame_cad.pipeline import Design, design
 from sesame_cad.reading import Reading
 from sesame_cad.shape_files import shape_paths
+from sesame_cad.sleeve.design import sleeve_design
+from sesame_cad.sleeve.verification import checked_sleeves
 from sesame_cad.solid_checks import shape_faults, shape_sizes_mm
-from sesame_cad.specification import specification_from
+from sesame_cad.specification import Specification, specification_from
+from sesame_cad.specification.layout import SLEEVE
 from sesame_cad.staging import DESIGN_FILE
-from sesame_cad.stitch_checks import stitch_faults
 from solver.errors import NotConvergedError
-
-MOST_FAULTS = 100
-MOST_OF_A_RULE = 5
-"""More faults of a kind, or of one design rule, are only counted."""
 
 Faults = Iterator[str]
 Data = dict[str, Any]
-
-
-@dataclass(frozen=True)
-class Verification:
-    """What was found in a folder.
-
-    Attributes
-    ----------
-    faults : tuple of str
-        One line each; empty when every file is as it should be.
-    sewn : Design or None
-        The design with the plan that the DST file holds; None when there is no such plan.
-    violations : tuple of Violation
-        Rules that this plan breaks.
-    """
-
-    faults: tuple[str, ...]
-    sewn: Design | None = None
-    violations: tuple[Violation, ...] = ()
 
 
 def verify(folder: Path) -> tuple[str, ...]:
@@ -69,11 +51,21 @@ def verified(folder: Path) -> Verification:
         raise InputError(f"{folder}: not a folder; name the folder of a design")
     try:
         data = _read_data(folder / DESIGN_FILE)
-        made = _made_again(data)
+        return _checked(folder, data, _specification(data))
     except DesignFileError as error:
         return Verification((f"{DESIGN_FILE}: {error}",))
-    reading = Reading(folder, data, made)
-    faults = tuple(fault for part in CHECKS for fault in _limited(part(reading), MOST_FAULTS))
+    except InputError as error:
+        return Verification((f"{DESIGN_FILE}: {'; '.join(error.faults)}",))
+    except NotConvergedError as error:
+        return Verification((f"{DESIGN_FILE}: {error}",))
+
+
+def _checked(folder: Path, data: Data, spec: Specification) -> Verification:
+    """Make the design again and compare."""
+    if spec.layout.kind == SLEEVE:
+        return checked_sleeves(folder, data, sleeve_design(spec))
+    reading = Reading(folder, data, design(spec))
+    faults = tuple(fault for part in CHECKS for fault in limited(part(reading), MOST_FAULTS))
     try:
         return Verification(faults, reading.sewn, reading.violations)
     except (DesignFileError, PatternError):
@@ -98,45 +90,16 @@ def _read_data(file: Path) -> Data:
     return data
 
 
-def _made_again(data: Data) -> Design:
+def _specification(data: Data) -> Specification:
     specification = data.get("specification")
     if not isinstance(specification, dict):
         raise DesignFileError('no "specification" in it')
-    try:
-        return design(specification_from(specification, str(data.get("name")), "specification"))
-    except InputError as error:
-        raise DesignFileError("; ".join(error.faults)) from None
-    except NotConvergedError as error:
-        raise DesignFileError(str(error)) from None
-
-
-def _limited(faults: Iterator[str], most: int) -> Faults:
-    more = 0
-    for count, fault in enumerate(faults):
-        if count < most:
-            yield fault
-        else:
-            more += 1
-    if more:
-        yield f"... and {more} more of this kind"
+    return specification_from(specification, str(data.get("name")), "specification")
 
 
 def _check_files(reading: Reading) -> Faults:
     """Listed files are there with their size and hash, and no others."""
-    listed = reading.data["files"]
-    for path, said in listed.items():
-        content = reading.content(path)
-        if content is None:
-            yield f"{path}: {reading.lack(path)}"
-        elif file_data(content) != said:
-            yield f"{path}: changed since it was written (its size or hash is another)"
-    for file in sorted(reading.folder.rglob("*")):
-        path = file.relative_to(reading.folder).as_posix()
-        if file.is_file() and path != DESIGN_FILE and path not in listed:
-            yield f"{path}: not listed in {DESIGN_FILE}"
-    for path in _expected_files(reading.made):
-        if path not in listed:
-            yield f"{path}: not listed in {DESIGN_FILE}, though the design needs it"
+    yield from file_faults(reading, _expected_files(reading.made))
 
 
 def _expected_files(made: Design) -> Iterator[str]:
@@ -159,35 +122,6 @@ def _check_numbers(reading: Reading) -> Faults:
     yield from differences(reading.data, expected, DESIGN_FILE)
 
 
-def _check_stitches(reading: Reading) -> Faults:
-    """Stitch files hold every stitch and stop of the plan, and break no rule."""
-    yield from stitch_faults(reading)
-    path = f"stitch/{reading.made.spec.name}.dst"
-    yield from (f"{path}: {fault}" for fault in _rule_faults(reading))
-
-
-def _rule_faults(reading: Reading) -> Faults:
-    try:
-        violations = reading.violations
-    except DesignFileError:
-        return  # which is told of the file
-    except PatternError as error:
-        yield str(error)
-        return
-    for _, of_rule in groupby(violations, key=lambda violation: violation.rule):
-        yield from _limited(map(str, of_rule), MOST_OF_A_RULE)
-
-
-def _check_cut(reading: Reading) -> Faults:
-    """Cut files hold the outline, closed, in mm, clear of wire and needle."""
-    for kind in CUT_READERS:
-        path = f"cut/{reading.made.spec.name}.{kind}"
-        content = reading.content(path)
-        if content is not None:
-            faults = cut_faults(content, kind, reading.made)
-            yield from (f"{path}: {fault}" for fault in faults)
-
-
 def _check_shapes(reading: Reading) -> Faults:
     """Files of shapes have the predicted size; STL files are watertight solids."""
     sizes = shape_sizes_mm(reading.made)
@@ -201,7 +135,7 @@ def _check_shapes(reading: Reading) -> Faults:
 CHECKS: tuple[Callable[[Reading], Faults], ...] = (
     _check_files,
     _check_numbers,
-    _check_stitches,
-    _check_cut,
+    sewn_faults,
+    fabric_faults,
     _check_shapes,
 )

@@ -154,6 +154,98 @@ CATALOGUE = (
         "0.3 mm from a cut line",
         ("outline.margin_mm",),
     ),
+    RuleNote(
+        "ties",
+        "one block of ties holds both edges of every loop of a sleeve to the layer above, each tie "
+        "across the wire",
+        "two ties an edge",
+        ("sleeve.tie_angle_deg", "sleeve.tie_length_mm"),
+    ),
+    RuleNote(
+        "tie-on-wire",
+        "needle points of ties miss the wire of the upper layer too",
+        "half the wire and half the needle",
+        ("sleeve.tie_length_mm", "stitching.needle_margin_mm"),
+    ),
+    RuleNote(
+        "tie-on-beam",
+        "needle points of ties miss beams, hooks and their frame",
+        "half the needle and the space that is asked for",
+        ("sleeve.needle_to_beam_mm", "beam.width_mm", "layout.row_pitch_mm"),
+    ),
+    RuleNote(
+        "beams-hoop",
+        "beams and their frame lie in the field of the hoop",
+        "the hoop without its rim",
+        ("beam.frame_tabs", "beam.length_mm", "machine.hoop_width_mm", "machine.hoop_height_mm"),
+    ),
+    RuleNote(
+        "cut-shape",
+        "lines of a piece of sheet neither meet nor cross, and round corners have room",
+        "none",
+        ("beam.corner_radius_mm", "beam.hook_height_mm"),
+    ),
+    RuleNote(
+        "hole-off",
+        "holes lie on their piece",
+        "none",
+        ("beam.hole_diameter_mm", "beam.hole_edge_diameters"),
+    ),
+    RuleNote(
+        "hole-edge",
+        "beside a hole there is enough sheet",
+        "diameters of the hole, from its edge",
+        ("beam.hole_edge_diameters", "beam.width_mm"),
+    ),
+    RuleNote(
+        "web",
+        "sheet between two holes or lines is not too narrow",
+        "0.8 mm, about twice the thickness of the published sheet",
+        ("beam.length_mm",),
+    ),
+    RuleNote(
+        "inner-radius",
+        "a blade can follow inner corners and holes",
+        "a radius of 0.25 mm",
+        ("beam.hole_diameter_mm",),
+    ),
+    RuleNote(
+        "hook-place",
+        "hooks stand on the straight edges of a beam, apart from one another",
+        "the edge between round corners",
+        ("sleeve.compressed_pitch_mm", "beam.hook_height_mm"),
+    ),
+    RuleNote(
+        "sleeve-length",
+        "a compressed sleeve is no longer than half of its segment",
+        "half the distance of the holes",
+        ("sleeve.compressed_pitch_mm", "beam.length_mm"),
+    ),
+    RuleNote(
+        "sleeve-place",
+        "a compressed sleeve lies in one half of its segment, beside the hole",
+        "the hole's edge and the middle",
+        ("sleeve.compressed_pitch_mm", "beam.length_mm"),
+    ),
+    RuleNote(
+        "constraint-length",
+        "holes of a constraint strip are nearer to one another than those of the beam",
+        "the distance of the beam's holes",
+        ("beam.constraint_length_mm",),
+    ),
+    RuleNote(
+        "mat-size",
+        "every piece fits on the sheet, turned or not",
+        "the sheet between its margins",
+        ("beam.mat", "beam.sheet_width_mm", "beam.sheet_height_mm"),
+    ),
+    RuleNote("mat-edge", "nothing is cut beyond the sheet", "the sheet", ("beam.kerf_mm",)),
+    RuleNote(
+        "mat-overlap",
+        "cuts of different pieces do not meet",
+        "none",
+        ("beam.spacing_mm", "beam.kerf_mm"),
+    ),
 )
 
 

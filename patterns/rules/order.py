@@ -15,7 +15,8 @@ def check_blocks(subject: Subject) -> list[Violation]:
     """Check for marks (if any), the stages with a cover before each but the first, then stripes.
 
     Each must be there once, in order, and nothing else; stripes only when they are asked for. The
-    cover before a further wire may be left out, for that wire need not touch another.
+    cover before a further wire may be left out, for that wire need not touch another. Ties to
+    another layer, if any, come last; `patterns.rules.ties` says where they must be.
     """
     circuit = subject.circuit
     parts = [(block.kind, block.stage) for block in subject.plan.blocks]
@@ -23,7 +24,7 @@ def check_blocks(subject: Subject) -> list[Violation]:
     faults = [
         Violation(_RULE, f"{_name(circuit, part)} is missing: no block {part[0].value}", 0.0, 0.0)
         for part in order[1:]
-        if part not in parts and not (part[0] is BlockKind.COVER and circuit.begins_wire(part[1]))
+        if part not in parts and not _may_lack(circuit, part)
     ]
     latest, latest_at = -1, 0
     for i, part in enumerate(parts):
@@ -43,11 +44,16 @@ def check_blocks(subject: Subject) -> list[Violation]:
     return faults
 
 
+def _may_lack(circuit: Circuit, part: _Part) -> bool:
+    kind, stage = part
+    return kind is BlockKind.TIES or (kind is BlockKind.COVER and circuit.begins_wire(stage))
+
+
 def _order(stages: int, *, striped: bool) -> list[_Part]:
     """Everything that is sewn, in order; the marks, which need not be, first."""
     wires = [(kind, k) for k in range(stages) for kind in (BlockKind.COVER, BlockKind.WIRE)]
     stripes = [(BlockKind.STRIPES, 0)] if striped else []
-    return [(BlockKind.MARKS, 0), *wires[1:], *stripes]
+    return [(BlockKind.MARKS, 0), *wires[1:], *stripes, (BlockKind.TIES, 0)]
 
 
 def _name(circuit: Circuit, part: _Part) -> str:
@@ -59,6 +65,7 @@ def _name(circuit: Circuit, part: _Part) -> str:
         BlockKind.COVER: f"the cover before {name} of the wire",
         BlockKind.WIRE: f"{name} of the wire",
         BlockKind.STRIPES: "the block of stripes",
+        BlockKind.TIES: "the block of ties",
     }
     return names[kind]
 

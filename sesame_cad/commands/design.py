@@ -65,7 +65,7 @@ def command(
     quiet: bool,
     **quantities: str | None,
 ) -> None:
-    """Make the fabrication package of the array in SPEC, a TOML file, or of the options alone.
+    """Make the package of the array or sleeves in SPEC, a TOML file, or of the options alone.
 
     Options replace the file's keys. The package is a folder: design.json, stitch, cut, shape and
     pictures. It is written aside and moved into place when it is complete.
@@ -76,6 +76,7 @@ def command(
     from sesame_cad.package import write_package
     from sesame_cad.pipeline import BrokenRulesError
     from sesame_cad.progress import telling
+    from sesame_cad.sleeve.summary import print_sleeves
     from sesame_cad.summary import print_design
     from solver.errors import NotConvergedError
 
@@ -104,7 +105,7 @@ def command(
     if as_json:
         click.echo(json.dumps(data, indent=2, ensure_ascii=False))
     elif not quiet:
-        print_design(data, target)
+        (print_sleeves if "beams" in data else print_design)(data, target)
 
 
 def _quantities(given: dict[str, str | None]) -> dict[str, float]:

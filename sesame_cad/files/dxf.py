@@ -33,10 +33,10 @@ def outline_dxf(outline: Outline, marks: tuple[Mark, ...]) -> str:
 
     Layers: HOLE (openings), CUT (outside), MARK (registration), REFERENCE (a 100 mm bar; not cut).
     """
-    with _without_dates():
-        document = _document()
+    with without_dates():
+        document = new_document()
         _draw(document.modelspace(), outline, marks)
-        return _text(document)
+        return document_text(document)
 
 
 def _draw(space: Modelspace, outline: Outline, marks: tuple[Mark, ...]) -> None:
@@ -60,11 +60,7 @@ def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
         When the drawing is not in millimetres, a cut line is open or bent, or something other
         than a polyline is drawn.
     """
-    document = _read(data)
-    if document.header.get("$INSUNITS", 0) != MM:
-        raise DesignFileError(
-            f"the DXF's units are {document.header.get('$INSUNITS', 0)}, not 4 (mm)"
-        )
+    document = read_millimetres(data)
     lines = list(_lines(document))
     for layer, line in lines:
         if layer in ("CUT", "HOLE") and not line.closed:
@@ -77,7 +73,8 @@ def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
     return Outline(outside[0], openings, tuple(outside[1:])), strokes
 
 
-def _document() -> Drawing:
+def new_document() -> Drawing:
+    """Begin a drawing in millimetres, with the layers of cut files."""
     document = new("R2010", setup=False, units=MM)
     document.header["$MEASUREMENT"] = _METRIC
     for layer, colour in _COLOURS.items():
@@ -87,14 +84,15 @@ def _document() -> Drawing:
     return document
 
 
-def _text(document: Drawing) -> str:
+def document_text(document: Drawing) -> str:
+    """Write a drawing."""
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue()
 
 
 @contextmanager
-def _without_dates() -> Generator[None]:
+def without_dates() -> Generator[None]:
     """Keep dates and random identifiers out of documents that are made and written within."""
     before = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True
@@ -102,6 +100,15 @@ def _without_dates() -> Generator[None]:
         yield
     finally:
         options.write_fixed_meta_data_for_testing = before
+
+
+def read_millimetres(data: bytes) -> Drawing:
+    """Read a drawing in millimetres; raises `DesignFileError` when it is none."""
+    document = _read(data)
+    units = document.header.get("$INSUNITS", 0)
+    if units != MM:
+        raise DesignFileError(f"the DXF's units are {units}, not 4 (mm)")
+    return document
 
 
 def _read(data: bytes) -> Drawing:

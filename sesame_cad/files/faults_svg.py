@@ -14,7 +14,7 @@ from patterns.numbered_faults import NumberedFaults, numbered_faults
 from patterns.violation import Violation
 from sesame_cad.files.plan_svg import draw_plan
 from sesame_cad.files.sheet import MARGIN_MM, Sheet, lay_out
-from sesame_cad.files.svg_page import add_layer, add_text, number, svg_page, svg_text
+from sesame_cad.files.svg_page import add_layer, add_reference, add_text, number, svg_page, svg_text
 from sesame_cad.pipeline import Pattern
 
 RED = "#e00000"
@@ -41,6 +41,7 @@ def faults_svg(
     longer = replace(sheet, height_mm=below + _LINE_MM * len(lines) + MARGIN_MM)
     root = svg_page(longer, f"{name}: broken rules")
     draw_plan(root, sheet, laid, wire_diameter_mm)
+    add_reference(root, sheet)
     for rule in rules:
         _add_rule(root, sheet, rule)
     legend = add_layer(root, "LEGEND", f"{_TEXT}{_TEXT_MM}px")

@@ -43,31 +43,35 @@ def plan_svg(laid: Pattern, wire_diameter_mm: Diameters, name: str) -> str:
     sheet = lay_out(laid.outline, laid.marks)
     root = svg_page(sheet, name)
     draw_plan(root, sheet, laid, wire_diameter_mm)
+    add_reference(root, sheet)
     return svg_text(root)
 
 
 def draw_plan(
-    root: ElementTree.Element, sheet: Sheet, laid: Pattern, wire_diameter_mm: Diameters
+    root: ElementTree.Element,
+    sheet: Sheet,
+    laid: Pattern,
+    wire_diameter_mm: Diameters,
+    prefix: str = "",
 ) -> None:
-    """Add the layers of `plan_svg` to a page."""
+    """Add the layers of `plan_svg` but the last to a page; their names begin with a prefix."""
     rings = [line_path(sheet, ring, closed=True) for ring in laid.outline.rings]
-    add_layer(root, "OUTLINE", f"{_LINE}{_CUT_MM};stroke:{_CUT}", rings)
+    add_layer(root, f"{prefix}OUTLINE", f"{_LINE}{_CUT_MM};stroke:{_CUT}", rings)
     strokes = [
         line_path(sheet, stroke, closed=False) for mark in laid.marks for stroke in mark.strokes
     ]
-    add_layer(root, "MARKS", f"{_LINE}{_CUT_MM};stroke:{MARK}", strokes)
+    add_layer(root, f"{prefix}MARKS", f"{_LINE}{_CUT_MM};stroke:{MARK}", strokes)
     diameters_mm = laid.circuit.of_stages(wire_diameter_mm)
     for k, stage in enumerate(laid.circuit.stages):
         style = f"{_LINE}{number(diameters_mm[k])};stroke-opacity:0.5;stroke:{stage_colour(k)}"
-        add_layer(root, f"WIRE-{k + 1}", style, [_wire_path(sheet, stage)])
+        add_layer(root, f"{prefix}WIRE-{k + 1}", style, [_wire_path(sheet, stage)])
     for k, block in enumerate(laid.plan.blocks, start=1):
         colour = block_colour(block)
         style = f"{_LINE}{_STITCH_MM};stroke:{colour}"
-        add_layer(root, f"STITCHES-{k}", style, [_stitches(sheet, block)])
+        add_layer(root, f"{prefix}STITCHES-{k}", style, [_stitches(sheet, block)])
         dots = f"{_LINE}{_NEEDLE_MM};stroke-linecap:round;stroke:{colour}"
-        add_layer(root, f"NEEDLES-{k}", dots, [_needles(sheet, block)])
-    _add_labels(root, sheet, laid.circuit)
-    add_reference(root, sheet)
+        add_layer(root, f"{prefix}NEEDLES-{k}", dots, [_needles(sheet, block)])
+    _add_labels(root, sheet, laid.circuit, f"{prefix}LABELS")
 
 
 def _wire_path(sheet: Sheet, path: WirePath) -> str:
@@ -116,9 +120,9 @@ def _steps(needles: Points) -> str:
     return " ".join(f"{tenths[x]},{tenths[y]}" for x, y in step.tolist())
 
 
-def _add_labels(root: ElementTree.Element, sheet: Sheet, circuit: Circuit) -> None:
+def _add_labels(root: ElementTree.Element, sheet: Sheet, circuit: Circuit, layer: str) -> None:
     loops = circuit.layout.loops
-    group = add_layer(root, "LABELS", _LABEL)
+    group = add_layer(root, layer, _LABEL)
     for order, k in enumerate(loops_in_order(circuit), start=1):
         size = min(8.0, loops[k].width_mm / 5)
         style = f"font-size:{number(size)}px;fill:#333333"

@@ -48,7 +48,11 @@ class Sheet:
 def lay_out(outline: Outline, marks: tuple[Mark, ...]) -> Sheet:
     """Choose a page around outline and marks, with the check bar below them."""
     strokes = [stroke for mark in marks for stroke in mark.strokes]
-    points = np.concatenate([*outline.outsides, *strokes])
+    return lay_out_points(np.concatenate([*outline.outsides, *strokes]))
+
+
+def lay_out_points(points: Ring) -> Sheet:
+    """Choose a page around points (n, 2), with the check bar below them."""
     left, bottom = np.floor(points.min(axis=0)) - MARGIN_MM
     right, top = np.ceil(points.max(axis=0)) + MARGIN_MM
     bar = np.array([(left + MARGIN_MM, bottom), (left + MARGIN_MM + CHECK_BAR_MM, bottom)])

@@ -66,8 +66,8 @@ def read_outline_svg(data: bytes) -> tuple[Outline, Strokes]:
     DesignFileError
         When the page is not in millimetres, a cut line is open, or a layer is missing.
     """
-    root = _parse(data)
-    sheet = _read_sheet(root)
+    root = parse_svg(data)
+    sheet = read_sheet(root)
     layers = {
         group.get(f"{{{INKSCAPE}}}label"): [
             _points(path, sheet) for path in group.iter(f"{{{SVG}}}path")
@@ -88,7 +88,8 @@ def read_outline_svg(data: bytes) -> tuple[Outline, Strokes]:
     return outline, tuple(stroke for stroke, _ in layers["MARK"])
 
 
-def _parse(data: bytes) -> ElementTree.Element:
+def parse_svg(data: bytes) -> ElementTree.Element:
+    """Read a drawing without entities; raises `DesignFileError` when it is none."""
     try:
         text = data.decode("utf-8")
         if "<!DOCTYPE" in text or "<!ENTITY" in text:
@@ -98,7 +99,8 @@ def _parse(data: bytes) -> ElementTree.Element:
         raise DesignFileError(f"this is no SVG: {error}") from error
 
 
-def _read_sheet(root: ElementTree.Element) -> Sheet:
+def read_sheet(root: ElementTree.Element) -> Sheet:
+    """Find where a page lies; raises `DesignFileError` when it is not in true millimetres."""
     width, height = root.get("width", ""), root.get("height", "")
     if not (re.fullmatch(_LENGTH, width) and re.fullmatch(_LENGTH, height)):
         raise DesignFileError(f"the SVG's page is not in mm: width {width!r}, height {height!r}")

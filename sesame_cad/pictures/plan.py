@@ -14,7 +14,7 @@ from patterns.outline import Outline
 from patterns.path import WirePath
 from patterns.plan import UNITS_PER_MM, BlockKind, StitchPlan
 from patterns.registration import Mark
-from sesame_cad.drawing_colours import COVER, MARK, STRIPE, stage_colour
+from sesame_cad.drawing_colours import COVER, MARK, STRIPE, TIE, stage_colour
 from sesame_cad.pictures.canvas import png_bytes
 
 Vectors = NDArray[np.float64]
@@ -47,6 +47,7 @@ def plan_figure(
     _draw_needles(axes, plan)
     _draw_thread(axes, plan, BlockKind.COVER, COVER, "thread cover")
     _draw_thread(axes, plan, BlockKind.STRIPES, STRIPE, "stripe")
+    _draw_thread(axes, plan, BlockKind.TIES, TIE, "tie to the other layer")
     arrow_mm = _arrow_mm(circuit, outline)
     for k, stage in enumerate(circuit.stages):
         _draw_wire(axes, stage, stage_colour(k), f"wire, {circuit.stage_name(k)}", arrow_mm)

@@ -115,6 +115,14 @@ def piece_patch(piece: Piece, colour: Vectors) -> TrianglePatch:
     )
 
 
+def solid_patch(points: Vectors, faces: Indices, colour: Vectors) -> TrianglePatch:
+    """Triangles of a solid with sharp edges, each with its own normal."""
+    corners = points[faces]
+    normal = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    own = np.arange(3 * len(faces), dtype=np.int64).reshape(-1, 3)
+    return TrianglePatch(corners.reshape(-1, 3), np.repeat(normal, 3, axis=0), own, colour)
+
+
 def _tube(boundary: Boundary, wire_diameter_mm: float, spokes: int, colour: Vectors) -> Patch:
     points, _ = tube_mesh(boundary, wire_diameter_mm, spokes, _SIDES)
     grid = points.reshape(spokes, _SIDES, 3)

@@ -34,7 +34,6 @@ _BAR_LENGTHS_MM = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 _LARGEST_SHARE_IN = 6.5
 _LARGEST_ASPECT = 2.0
 _AIR = 1.03
-"""The picture is this much larger than what it shows."""
 
 
 @dataclass(frozen=True)
@@ -80,18 +79,45 @@ class SheetView:
         return np.zeros((1, 2))
 
 
-AnyView = ShapeView | SheetView
+@dataclass(frozen=True)
+class PatchView:
+    """One state of anything else.
+
+    Attributes
+    ----------
+    title : str
+    patches : tuple of patches
+        In mm, each with its colour.
+    """
+
+    title: str
+    patches: tuple[AnyPatch, ...]
+
+    @property
+    def centres_mm(self) -> Vectors:
+        """Where it stands: it is drawn once."""
+        return np.zeros((1, 2))
 
 
-def shapes_picture(views: Sequence[AnyView]) -> bytes:
-    """Draw states of an array side by side, at one scale, seen from one side; a PNG."""
-    view = View()
+AnyView = ShapeView | SheetView | PatchView
+
+_FROM_ABOVE = View()
+
+
+def shapes_picture(views: Sequence[AnyView], view: View = _FROM_ABOVE, air: float = _AIR) -> bytes:
+    """Draw states of an array side by side, at one scale, seen from one side; a PNG.
+
+    Parameters
+    ----------
+    air : float
+        The picture is this much larger than what it shows.
+    """
     patches = [_patches(shape) for shape in views]
     bounds = [
         projected_bounds(own, shape.centres_mm, view)
         for own, shape in zip(patches, views, strict=True)
     ]
-    extent = _AIR * np.max([high - low for low, high in bounds], axis=0)
+    extent = air * np.max([high - low for low, high in bounds], axis=0)
     share_in = min(_WIDTH_IN / len(views), _LARGEST_SHARE_IN)
     width_in = share_in - 2 * _MARGIN_IN
     mm_per_inch = max(extent[0] / width_in, extent[1] / (_LARGEST_ASPECT * width_in))
@@ -112,6 +138,8 @@ def shapes_picture(views: Sequence[AnyView]) -> bytes:
 
 
 def _patches(shape: AnyView) -> list[AnyPatch]:
+    if isinstance(shape, PatchView):
+        return list(shape.patches)
     fabric, wire = (np.array(to_rgb(colour)) for colour in (FABRIC, WIRE))
     if isinstance(shape, SheetView):
         drawn = shape.shape

@@ -9,13 +9,22 @@ from math import cos, sin
 from patterns.errors import PatternError
 from patterns.sewn_run import APPROACH_MM
 from patterns.terminals import terminals
+from sesame_cad.specification.beam import BeamSection
 from sesame_cad.specification.fault import Fault
-from sesame_cad.specification.layout import LayoutSection
+from sesame_cad.specification.layout import SLEEVE, LayoutSection
 from sesame_cad.specification.machine import MachineSection
 from sesame_cad.specification.model import ModelSection
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.prediction import MOST_COUPLED, coupled_because, predicted_shape
+from sesame_cad.specification.sleeve import SleeveSection
+from sesame_cad.specification.sleeve_faults import (
+    beam_faults,
+    misplaced,
+    sheet_faults,
+    tie_faults,
+    unsuitable,
+)
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.toml_text import number_text
 from sesame_cad.specification.wire import WireSection
@@ -38,6 +47,8 @@ class Together:
     machine: MachineSection
     outline: OutlineSection
     output: OutputSection
+    beam: BeamSection
+    sleeve: SleeveSection
 
 
 def inconsistencies(
@@ -133,6 +144,8 @@ def _missing_cells(sections: Together) -> Iterator[Fault]:
 
 def _no_shape(sections: Together) -> Iterator[Fault]:
     layout, model = sections.layout, sections.model
+    if layout.kind == SLEEVE:
+        return  # what it may be is said with the rest of sleeves
     coupling = coupled_because(layout, sections.wiring, sections.wire)
     if layout.shape == "cell" and coupling is not None:
         yield Fault(
@@ -205,7 +218,7 @@ def _stretched_twice(sections: Together) -> Iterator[Fault]:
 
 def _small_hoop(sections: Together) -> Iterator[Fault]:
     machine, layout = sections.machine, sections.layout
-    if sections.wiring.split != "none" or sections.wiring.circuits:
+    if sections.wiring.split != "none" or sections.wiring.circuits or layout.kind == SLEEVE:
         return  # where several pairs of tails leave is known when the wires are laid
     known = layout.known_diameters_mm
     if not known or min(known) <= sections.wire.diameter_mm or not layout.loops():
@@ -235,6 +248,31 @@ def _thick_preview(sections: Together) -> Iterator[Fault]:
         yield Fault(_PREVIEW, limit, number_text(thickness))
 
 
+def _misplaced(sections: Together) -> Iterator[Fault]:
+    return misplaced(sections.layout, sections.beam, sections.sleeve)
+
+
+def _sleeves(sections: Together) -> Iterator[Fault]:
+    layout, beam = sections.layout, sections.beam
+    if layout.kind != SLEEVE:
+        return
+    others = {"layout": layout, "wiring": sections.wiring, "stitching": sections.stitching}
+    yield from unsuitable(others, sections.wiring)
+    if not layout.loop_diameter_mm or sections.wire.diameter_mm >= layout.loop_diameter_mm:
+        return  # which is said elsewhere
+    found = [*beam_faults(layout, beam, sections.sleeve), *sheet_faults(layout, beam)]
+    yield from found
+    if not found:
+        yield from tie_faults(
+            layout,
+            beam,
+            sections.sleeve,
+            machine=sections.machine.geometry(),
+            stitching=sections.stitching.geometry(),
+            wire_diameter_mm=sections.wire.diameter_mm,
+        )
+
+
 _DIAMETER = ("wire", "diameter_mm")
 _KIND = ("layout", "kind")
 _ROWS = ("layout", "rows")
@@ -253,6 +291,12 @@ _WIDTH = ("machine", "hoop_width_mm")
 _HEIGHT = ("machine", "hoop_height_mm")
 _RIM = ("machine", "hoop_rim_mm")
 _PREVIEW = ("output", "preview_thickness_mm")
+
+_NEEDLE = (
+    ("machine", "needle_diameter_mm"),
+    ("stitching", "needle_margin_mm"),
+    ("stitching", "lock_length_mm"),
+)
 
 _ARRANGING = (_ROWS, _COLUMNS, _LOOP, _DIAMETERS, _CIRCLES)
 _SIZES = (_KIND, _LOOP, _DIAMETERS, _CIRCLES)
@@ -303,6 +347,21 @@ _CHECKS: tuple[tuple[Callable[[Together], Iterator[Fault]], tuple[tuple[str, str
         ),
     ),
     (_thick_preview, (_DIAMETER, _PREVIEW)),
+    (_misplaced, (_KIND, ("layout", "row_pitch_mm"))),
+    (
+        _sleeves,
+        (
+            _KIND,
+            _ROWS,
+            _COLUMNS,
+            _LOOP,
+            _DIAMETER,
+            ("layout", "row_pitch_mm"),
+            *(("beam", key) for key in BeamSection.model_fields),
+            *(("sleeve", key) for key in SleeveSection.model_fields),
+            *_NEEDLE,
+        ),
+    ),
     (
         lambda sections: circuit_faults(sections.wiring, sections.layout, sections.stitching),
         (("wiring", "circuits"), ("wiring", "split"), _KIND, _ROWS, _COLUMNS, _MISSING, _SHAPE),

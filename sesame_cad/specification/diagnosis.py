@@ -10,6 +10,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from sesame_cad.specification.allowed import allowed_text, is_number, limits_text
+from sesame_cad.specification.beam import BeamSection
 from sesame_cad.specification.consistency import Together, inconsistencies
 from sesame_cad.specification.fault import Fault, shown_value
 from sesame_cad.specification.layout import LayoutSection
@@ -19,6 +20,7 @@ from sesame_cad.specification.nearest import nearest_key
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.section import Section
+from sesame_cad.specification.sleeve import SleeveSection
 from sesame_cad.specification.specification import Specification, sections
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.wire import WireSection
@@ -114,6 +116,8 @@ def _faults_between(
         machine=sound("machine", MachineSection),
         outline=sound("outline", OutlineSection),
         output=sound("output", OutputSection),
+        beam=sound("beam", BeamSection),
+        sleeve=sound("sleeve", SleeveSection),
     )
     return inconsistencies(together, found)
 

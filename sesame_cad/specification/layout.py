@@ -7,16 +7,22 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from patterns.lattice import Lattice, centred, lattice_cells, lattice_loops, row_loops
+from patterns.lattice import Lattice, centred, lattice_cells, lattice_loops, row_loops, rows_apart
 from patterns.layout import ROUNDED_MM, TANGENCY_TOLERANCE_MM
 from patterns.loop import Cell, Loop
 from patterns.terminals import Side
 from sesame_cad.specification.section import Allowed, Section
 
-Kind = Literal["grid", "brick", "hexagonal", "row", "circles"]
+Kind = Literal["grid", "brick", "hexagonal", "row", "circles", "sleeve"]
 
 TILING = ("grid", "row")
 """Kinds whose loops have contacts a quarter turn apart."""
+
+SLEEVE = "sleeve"
+"""The kind whose rows lie apart, a beam along each."""
+
+ROW_ROOM_MM = 8.0
+"""Between the rows of sleeves, if their pitch is left out: for ties, needle and margins."""
 
 _UPRIGHT_DEG = 90
 
@@ -50,14 +56,15 @@ class Circle(Section):
 
 
 class LayoutSection(Section):
-    """Tangent loops: on a lattice, some left out, or any circles and ellipses."""
+    """Tangent loops: on a lattice, some left out, any circles and ellipses, or rows of sleeves."""
 
     kind: Kind = Field(
         default="grid",
         description=(
             "the arrangement of the loops (a word): a square grid; rows that are shifted by half a "
             "loop in turn, all equally long (brick) or clipped to the first row's width "
-            "(hexagonal); one row; or any tangent circles and ellipses"
+            "(hexagonal); one row; any tangent circles and ellipses; or two layers of rows apart, "
+            "each row around a beam of plastic, which it bends (sleeve)"
         ),
     )
     rows: int | None = Field(
@@ -71,6 +78,15 @@ class LayoutSection(Section):
         ge=0.1,
         le=10_000,
         description="the diameter in mm of the wire's centreline in a loop, in the hoop",
+    )
+    row_pitch_mm: float = Field(
+        default=0.0,
+        ge=0,
+        le=10_000,
+        description=(
+            "the distance in mm of neighbouring rows of sleeves, which is that of their beams; 0 "
+            f"is {ROW_ROOM_MM:g} mm more than the loops' diameter"
+        ),
     )
     diameters_mm: Annotated[tuple[Annotated[float, Field(ge=0.1, le=10_000)], ...], DIAMETERS] = (
         Field(
@@ -113,7 +129,10 @@ class LayoutSection(Section):
     )
     terminals: Literal["corner", "left", "right", "top", "bottom"] = Field(
         default="corner",
-        description="where the two tails leave the array (a word); the corner is the bottom left",
+        description=(
+            "where the two tails leave the array (a word); the corner is the bottom left, and of "
+            "the rows of sleeves the left"
+        ),
     )
     between: Literal["cut", "kept"] = Field(
         default="cut", description="what becomes of the fabric between the loops (a word)"
@@ -150,7 +169,14 @@ class LayoutSection(Section):
     @property
     def side(self) -> Side:
         """Where the tails leave, as the geometry knows it."""
+        if self.kind == SLEEVE and self.terminals == "corner":
+            return Side.LEFT
         return Side(self.terminals)
+
+    @property
+    def pitch_of_rows_mm(self) -> float:
+        """Distance of neighbouring rows of sleeves."""
+        return self.row_pitch_mm or self.diameter_mm + ROW_ROOM_MM
 
     def kinds_of_loops(self) -> tuple[Loop, ...]:
         """Give a loop of each size and shape, wherever it lies; as far as they are known."""
@@ -181,6 +207,8 @@ class LayoutSection(Section):
         if self.diameters_mm:
             return row_loops(self.diameters_mm, gone, axis_ratio=stretch, upright=upright)
         size = (self._rows, self.columns or 0, self.loop_diameter_mm or 0.0)
+        if self.kind == SLEEVE:
+            return rows_apart(*size, self.pitch_of_rows_mm)
         return lattice_loops(self._lattice, *size, gone, axis_ratio=stretch, upright=upright)
 
     @property
@@ -189,4 +217,4 @@ class LayoutSection(Section):
 
     @property
     def _lattice(self) -> Lattice:
-        return Lattice.GRID if self.kind in TILING else Lattice(self.kind)
+        return Lattice.GRID if self.kind in (*TILING, SLEEVE) else Lattice(self.kind)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Annotated
 
 from pydantic import AfterValidator, Field
@@ -151,6 +152,10 @@ class MachineSection(Section):
             "the threads' colours (words) for marks, couching, covers and stripes, in this order"
         ),
     )
+
+    def geometry(self) -> Machine:
+        """Give the machine as the geometry knows it."""
+        return Machine(**self.model_dump(include={field.name for field in fields(Machine)}))
 
     @property
     def pace(self) -> SewingPace:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from sesame_cad.specification.layout import TILING, LayoutSection
+from sesame_cad.specification.layout import SLEEVE, TILING, LayoutSection
 from sesame_cad.specification.model import ModelSection
 from sesame_cad.specification.wire import WireSection
 from sesame_cad.specification.wiring import WiringSection
@@ -42,7 +42,12 @@ def coupled_because(layout: LayoutSection, wiring: WiringSection, wire: WireSect
 def predicted_shape(
     layout: LayoutSection, model: ModelSection, wiring: WiringSection, wire: WireSection
 ) -> Literal["cell", "coupled", "none"]:
-    """Give the prediction that is asked for; that which holds, where it is left open."""
+    """Give the prediction that is asked for; that which holds, where it is left open.
+
+    Sleeves are no array that lies flat: theirs is another (`sesame_cad.sleeve`).
+    """
+    if layout.kind == SLEEVE:
+        return "none"
     if layout.shape != "auto":
         return layout.shape
     alone = model.fidelity != "mesh" and coupled_because(layout, wiring, wire) is None

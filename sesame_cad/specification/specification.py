@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields
+from dataclasses import replace
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
 from patterns.circuit import Diameters
+from patterns.hooks import SleevePlace
 from patterns.machine import Machine
 from patterns.stitching import Stitching
 from sesame_cad.files.dst_switches import DstSwitches
+from sesame_cad.specification.beam import BeamSection
 from sesame_cad.specification.consistency import Together, inconsistencies
 from sesame_cad.specification.fabric import FabricSection
-from sesame_cad.specification.layout import LayoutSection
+from sesame_cad.specification.layout import SLEEVE, LayoutSection
 from sesame_cad.specification.machine import MachineSection
 from sesame_cad.specification.model import ModelSection
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.prediction import predicted_shape
 from sesame_cad.specification.section import Allowed, Section
+from sesame_cad.specification.sleeve import SleeveSection
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.supply import SupplySection
 from sesame_cad.specification.toml_text import number_text, toml_value
@@ -59,6 +62,13 @@ class Specification(Section):
     output: OutputSection = Field(default=OutputSection(), description="the files that are written")
     wiring: WiringSection = Field(default=WiringSection(), description="which loops share a wire")
     supply: SupplySection = Field(default=SupplySection(), description="what heats the wire")
+    beam: BeamSection = Field(
+        default=BeamSection(), description='the beams of sleeves (layout.kind = "sleeve")'
+    )
+    sleeve: SleeveSection = Field(
+        default=SleeveSection(),
+        description='the sleeves around the beams (layout.kind = "sleeve")',
+    )
 
     @model_validator(mode="after")
     def _goes_together(self) -> Specification:
@@ -71,6 +81,8 @@ class Specification(Section):
             machine=self.machine,
             outline=self.outline,
             output=self.output,
+            beam=self.beam,
+            sleeve=self.sleeve,
         )
         faults = inconsistencies(together)
         if faults:
@@ -107,8 +119,7 @@ class Specification(Section):
 
     def patterns_machine(self) -> Machine:
         """Give the machine as the geometry knows it."""
-        known = {field.name for field in fields(Machine)}
-        return Machine(**self.machine.model_dump(include=known))
+        return self.machine.geometry()
 
     def dst_switches(self) -> DstSwitches:
         """Give what the machine wants of DST files."""
@@ -116,8 +127,19 @@ class Specification(Section):
         return DstSwitches(machine.refuses_zero_colours, machine.double_stop)
 
     def patterns_stitching(self) -> Stitching:
-        """Give the stitching settings as the geometry knows them."""
-        return Stitching(**self.stitching.model_dump())
+        """Give the stitching settings as the geometry knows them; sleeves always have stripes."""
+        settings = self.stitching.geometry()
+        return replace(settings, stripes="columns") if self.layout.kind == SLEEVE else settings
+
+    @property
+    def compressed_pitch_mm(self) -> float:
+        """Distance of neighbouring loops of a compressed sleeve."""
+        return self.sleeve.pitch_mm(self.layout, self.beam)
+
+    @property
+    def sleeve_place(self) -> SleevePlace:
+        """Where on its beam a sleeve is held compressed."""
+        return self.sleeve.place(self.layout, self.beam)
 
     def to_toml(self) -> str:
         """Write the specification in full; reading it back gives an equal one.

@@ -78,7 +78,7 @@ class StitchingSection(Section):
         default=_DEFAULT.stripes,
         description=(
             "the direction of lines of thread that does not stretch, through the centres of the "
-            "loops, sewn last (a word)"
+            "loops, sewn last (a word); sleeves always have them across their beams"
         ),
     )
     stripe_stitch_mm: float = Field(
@@ -123,3 +123,7 @@ class StitchingSection(Section):
         le=1000,
         description="the smallest bend radius of the wire, in diameters of the wire (no unit)",
     )
+
+    def geometry(self) -> Stitching:
+        """Give the settings as the geometry knows them."""
+        return Stitching(**self.model_dump())

@@ -7,7 +7,7 @@ exponentially with the degree.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -69,9 +69,13 @@ class StripBasis:
     arc, weight : array (Q,)
     heading : array (Q, n)
     stiffness, mass : array (n, n)
-        ∫ κ κ ds and ∫ θ θ ds.
+        ∫ (1 + stiffening where covered) κ κ ds and ∫ θ θ ds.
+    covering : array (n, n)
+        ∫ κ κ ds over the part that the sleeves cover.
     turn : array (n,)
-        Turn ∫ κ ds of the part that the sleeves cover.
+        Turn ∫ κ ds of that part.
+    stiffening : float
+        Bending stiffness that the sleeves add there, in units of the strip's.
     """
 
     pieces: tuple[Piece, ...]
@@ -81,12 +85,19 @@ class StripBasis:
     heading: Vectors
     stiffness: Vectors
     mass: Vectors
+    covering: Vectors
     turn: Vectors
+    stiffening: float = 0.0
 
     @property
     def size(self) -> int:
         """Number n of unknowns."""
         return self.free.shape[1]
+
+    def stiffened(self, stiffening: float) -> StripBasis:
+        """Give the basis of the same headings with another stiffness of the covered part."""
+        more = stiffening - self.stiffening
+        return replace(self, stiffness=self.stiffness + more * self.covering, stiffening=stiffening)
 
     def piece_of(self, arc: Vectors) -> Indices:
         """Index of the piece on which each point lies."""
@@ -169,6 +180,8 @@ def strip_basis(covered: tuple[float, float], ends: Ends, degree: int) -> StripB
     heading = _heading_table(pieces, arc, where) @ free
     at_ends = _heading_table(pieces, np.array(covered), _ends_of(pieces, covered))
     turn = at_ends[1] - at_ends[0]
+    inside = [covered[0] <= p.start < covered[1] for p in pieces for _ in range(degree + 1)]
+    bent = free[1:][inside]
     return StripBasis(
         pieces,
         free,
@@ -177,6 +190,7 @@ def strip_basis(covered: tuple[float, float], ends: Ends, degree: int) -> StripB
         heading,
         free[1:].T @ free[1:],
         heading.T @ (weight[:, None] * heading),
+        bent.T @ bent,
         turn @ free,
     )
 

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.errors import NotConvergedError
+from solver.errors import NotConvergedError, SceneError
 from solver.strip.balance import Balance, Point, at_couple
-from solver.strip.basis import strip_basis
+from solver.strip.mirror import mirrored
 from solver.strip.phase import amplitudes, at_rest, first_state, holding_phase, turned
 from solver.strip.scene import StripScene
-from solver.strip.snap import DEGREE
+from solver.strip.snap import scene_basis
 from solver.strip.state import positions
 
 Vectors = NDArray[np.float64]
@@ -76,19 +76,64 @@ def energy_landscape(scene: StripScene, samples: int = 73) -> Landscape:
     NotConvergedError
         Where no shape comes to rest at a phase, as under couples far beyond the critical ones.
     """
-    basis = strip_basis(scene.covered, scene.ends, DEGREE)
+    basis = scene_basis(scene)
     balance, modes = at_rest(basis, scene.shortening), amplitudes(basis, scene.ends)
     state = first_state(balance, scene.ends)
-    free = turned(balance, modes, Point(state.x, state.force, 0.0), 0.0)
-    couple = scene.couple_N_m / scene.energy_unit_J
-    held = Point(free.x, np.append(free.force[:2], 0.0), 0.0)
-    point = _loaded(holding_phase(balance, modes, 0.0), held, couple)
+    point = _at_phase(scene, balance, modes, state, 0.0)
     points: list[Point] = []
     phases = np.linspace(0, 2 * np.pi, samples)
     for phase in phases:
         point = turned(balance, modes, point, float(phase))
         points.append(point)
     return _read(scene, balance, modes, phases, points)
+
+
+def energy_to_minus(scene: StripScene, samples: int = 73) -> Landscape:
+    """Trace the energy from state + to state −, on the side to which a couple above 0 bends it.
+
+    It is traced from state −, which such a couple only bends further its own way, so that couples
+    at which state + is gone are no hindrance. Phases are given as they fall behind, from 0 to π.
+
+    Parameters
+    ----------
+    samples : int
+        Number of phases, equally spaced.
+
+    Raises
+    ------
+    SceneError
+        When the couple is less than 0.
+    NotConvergedError
+        Where no shape comes to rest at a phase.
+    """
+    if scene.couple_N_m < 0:
+        raise SceneError(
+            f"couple_bottom_N_m - couple_top_N_m = {scene.couple_N_m:g}: must be at least 0 for "
+            "the way from state + to state -; mirror the scene"
+        )
+    basis = scene_basis(scene)
+    balance, modes = at_rest(basis, scene.shortening), amplitudes(basis, scene.ends)
+    state = mirrored(first_state(balance, scene.ends))
+    point = _at_phase(scene, balance, modes, state, np.pi)
+    points: list[Point] = []
+    phases = np.linspace(np.pi, 2 * np.pi, samples)
+    for phase in phases:
+        point = turned(balance, modes, point, float(phase))
+        points.append(point)
+    found = _read(scene, balance, modes, phases, points)
+    return Landscape(
+        2 * np.pi - phases[::-1], found.energy_J[::-1], -found.slope_J[::-1], found.height_m[::-1]
+    )
+
+
+def _at_phase(
+    scene: StripScene, balance: Balance, modes: Vectors, state: Point, phase: float
+) -> Point:
+    """Turn a state without couple to a phase, and bring the scene's couple on there."""
+    free = turned(balance, modes, Point(state.x, state.force, 0.0), phase)
+    held = Point(free.x, np.append(free.force[:2], 0.0), 0.0)
+    couple = scene.couple_N_m / scene.energy_unit_J
+    return _loaded(holding_phase(balance, modes, phase), held, couple)
 
 
 def _read(

@@ -9,8 +9,12 @@ landscape; where it is level the strip is in balance, and where it is lowest sta
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh, null_space
 
 from solver.errors import NotConvergedError
 from solver.strip.balance import Balance, Point, at_couple
@@ -25,12 +29,26 @@ _SHORTEST_TURN = 1e-4
 _LONGEST_WAY = 0.4
 """Of a shape at once, relative to it; shapes whose ends have crossed lie further away."""
 _NOTHING_HELD = 0
+_LEAST_MASS = 1e-14
+_STIFFENING_STEP = 0.25
+"""Of the logarithm of the covered part's stiffness."""
 
 
 def amplitudes(basis: StripBasis, ends: Ends) -> Vectors:
     """Rows (2, n) that read A1 and A2 off the unknowns."""
-    modes = np.array(buckling_headings(ends, basis.arc))
-    return (basis.weight * modes) @ basis.heading
+    plain = np.array(buckling_headings(ends, basis.arc))
+    rows = (basis.weight * plain) @ basis.heading
+    if basis.stiffening == 0:
+        return rows
+    # modes of the stepped strip: stationary ½∫(1 + s)κ² at a given ∫θ², its ends level
+    level = null_space((basis.weight @ basis.heading)[None, :])
+    stiffness, mass = (level.T @ m @ level for m in (basis.stiffness, basis.mass))
+    # a heading that no unknown bends is no mode
+    mass = mass + _LEAST_MASS * np.trace(mass) * np.eye(len(mass))
+    modes = level @ eigh(stiffness, mass, subset_by_index=[0, 1])[1]
+    read = modes.T @ basis.mass
+    signs = np.sign(np.sum(read * np.linalg.lstsq(basis.mass, rows.T, rcond=None)[0].T, axis=1))
+    return signs[:, None] * read
 
 
 def phase_of(modes: Vectors, x: Vectors) -> float:
@@ -51,14 +69,19 @@ def holding_phase(balance: Balance, modes: Vectors, phase: float) -> Balance:
 
 
 def first_state(balance: Balance, ends: Ends) -> Point:
-    """State + without couple, from its closed form."""
+    """State + without couple, from its closed form, in steps where sleeves stiffen it."""
     basis = balance.basis
     mode = Elastica(balance.shortening, 1 if ends is Ends.PINNED else 2)
     heading = mode.heading(basis.arc, ends)
     root = np.sqrt(basis.weight)
     x = np.linalg.lstsq(root[:, None] * basis.heading, root * heading, rcond=None)[0]
     shape = np.asarray(x, dtype=np.float64)
-    return at_couple(balance, Point(shape, np.array([mode.force, 0.0]), 0.0), 0.0)
+    point = Point(shape, np.array([mode.force, 0.0]), 0.0)
+    steps = math.ceil(math.log1p(basis.stiffening) / _STIFFENING_STEP)
+    for step in range(steps + 1):
+        part = math.expm1(step * math.log1p(basis.stiffening) / max(steps, 1))
+        point = at_couple(replace(balance, basis=basis.stiffened(part)), point, 0.0)
+    return point
 
 
 def turned(balance: Balance, modes: Vectors, start: Point, phase: float) -> Point:

@@ -14,6 +14,8 @@ LARGEST_SHORTENING = 0.99
 """Share of the length; with more, the ends meet, and nothing keeps the strip from turning."""
 SHORTEST_SLEEVE = 0.01
 """Share of the length."""
+LARGEST_STIFFENING = 100.0
+"""Stiffness of the sleeves over the beam's; with more, half of the beam is rigid."""
 
 _WHOLE_TURN = 2 * math.pi
 _MANY_TIMES_CRITICAL = 30.0
@@ -42,6 +44,10 @@ class StripScene:
     density_kg_m3 : float
         Of the beam (polycarbonate: 1200, makers' data sheets), for what gravity would do.
     couple_top_N_m, couple_bottom_N_m : float
+        Of sleeves on the straight beam.
+    sleeve_stiffness_N_m2 : float
+        By which couples fall with the curvature that lengthens their sleeves, both together, N m
+        per 1/m: a bending stiffness that the covered part has on top of the beam's.
     covered : tuple of float
         Where the sleeves begin and end, as shares of the length, in one half of the beam.
     ends : Ends
@@ -61,6 +67,7 @@ class StripScene:
     density_kg_m3: float = 1200.0
     couple_top_N_m: float = 0.0  # noqa: N815
     couple_bottom_N_m: float = 0.0  # noqa: N815
+    sleeve_stiffness_N_m2: float = 0.0  # noqa: N815
     covered: tuple[float, float] = (0.0, 0.5)
     ends: Ends = Ends.PINNED
 
@@ -70,6 +77,11 @@ class StripScene:
         _check_positive("density_kg_m3", self.density_kg_m3)
         if not -1 < self.poisson < 0.5:
             raise SceneError(f"poisson = {self.poisson:g}: must lie between -1 and 0.5")
+        if not 0 <= self.stiffening <= LARGEST_STIFFENING:
+            raise SceneError(
+                f"sleeve_stiffness_N_m2 = {self.sleeve_stiffness_N_m2:g}: must be from 0 to "
+                f"{LARGEST_STIFFENING:g} times the beam's, {self.stiffness_N_m2:g} N m²"
+            )
         self._check_shortening()
         self._check_covered()
         self._check_couple()
@@ -116,6 +128,11 @@ class StripScene:
         return self.modulus_Pa * self.width_m * self.thickness_m**3 / 12
 
     @property
+    def stiffening(self) -> float:
+        """Bending stiffness of the sleeves in units of EI."""
+        return self.sleeve_stiffness_N_m2 / self.stiffness_N_m2
+
+    @property
     def energy_unit_J(self) -> float:  # noqa: N802
         """EI/L, the unit of energies and of couples."""
         return self.stiffness_N_m2 / self.length_m
@@ -133,7 +150,8 @@ class StripScene:
         couple at which a strip as little bent as this one snaps.
         """
         turn = min(_WHOLE_TURN, _MANY_TIMES_CRITICAL * math.sqrt(self.shortening))
-        return turn / (self.covered[1] - self.covered[0]) * self.energy_unit_J
+        stiff = (1 + self.stiffening) * self.energy_unit_J
+        return turn / (self.covered[1] - self.covered[0]) * stiff
 
 
 def _check_positive(key: str, value: float) -> None:

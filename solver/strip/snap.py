@@ -8,7 +8,7 @@ from functools import cached_property
 from solver.errors import NotConvergedError
 from solver.omitted import OmittedTerm
 from solver.strip.balance import Balance, Point
-from solver.strip.basis import strip_basis
+from solver.strip.basis import StripBasis, strip_basis
 from solver.strip.mirror import mirrored
 from solver.strip.omissions import left_out
 from solver.strip.path import Branch, carried, stable_branch
@@ -109,6 +109,11 @@ class Bistable:
         return side not in self.loaded
 
 
+def scene_basis(scene: StripScene) -> StripBasis:
+    """Give the basis in which a scene is solved."""
+    return strip_basis(scene.covered, scene.ends, DEGREE).stiffened(scene.stiffening)
+
+
 @dataclass(frozen=True)
 class _Search:
     """A scene's balance, and what both of its states have in common."""
@@ -117,8 +122,7 @@ class _Search:
 
     @cached_property
     def balance(self) -> Balance:
-        basis = strip_basis(self.scene.covered, self.scene.ends, DEGREE)
-        return at_rest(basis, self.scene.shortening)
+        return at_rest(scene_basis(self.scene), self.scene.shortening)
 
     @cached_property
     def start(self) -> Point:

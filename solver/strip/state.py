@@ -40,7 +40,7 @@ class StripState:
     couple_N_m : float
         Sum of both sleeves' couples.
     bending_J : float
-        ½ ∫ EI κ² ds.
+        ½ ∫ EI κ² ds, with what the sleeves add to EI.
     energy_J : float
         Bending energy, less the couple's work: couple × turn of the covered part.
     force_N : float

@@ -79,7 +79,7 @@ WRONG_VALUES = [
     (
         "layout",
         'kind = "square"',
-        'must be one of "grid", "brick", "hexagonal", "row", "circles"',
+        'must be one of "grid", "brick", "hexagonal", "row", "circles", "sleeve"',
     ),
     ("layout", 'terminals = "up"', 'must be one of "corner", "left", "right", "top", "bottom"'),
     ("layout", "missing = [1, 2]", "must be a list, each item a row and a column, …"),

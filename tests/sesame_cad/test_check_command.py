@@ -11,7 +11,7 @@ from patterns.plan import Block, BlockKind, StitchPlan
 from patterns.records import Records, plan_from_records, plan_records
 from sesame_cad.files.dst import decode_dst, write_dst
 from sesame_cad.files.stl import read_stl, write_stl
-from sesame_cad.package import file_data
+from sesame_cad.package_files import file_data
 from sesame_cad.specification import load_specification
 from sesame_cad.verification import verify
 

@@ -14,7 +14,8 @@ from patterns.plan import StitchPlan
 from patterns.records import plan_from_records, plan_records
 from patterns.violation import Violation
 from sesame_cad.files.dst import decode_dst, write_dst
-from sesame_cad.package import file_data, write_package
+from sesame_cad.package import write_package
+from sesame_cad.package_files import file_data
 from sesame_cad.pipeline import BrokenRulesError, pattern
 from sesame_cad.specification import specification_from
 

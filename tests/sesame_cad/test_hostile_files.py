@@ -13,7 +13,8 @@ from patterns.records import LARGEST_STEP, Records
 from sesame_cad import verification
 from sesame_cad.errors import DesignFileError
 from sesame_cad.files.dst import HEADER_BYTES, MOST_RECORDS, decode_dst, write_dst
-from sesame_cad.package import file_data, write_package
+from sesame_cad.package import write_package
+from sesame_cad.package_files import file_data
 from sesame_cad.pipeline import design
 from sesame_cad.specification import specification_from
 from sesame_cad.verification import verified
@@ -36,7 +37,7 @@ def loop(tmp_path_factory):
         # The design follows from design.json, which is the same every time.
         patched.setattr(verification, "design", lambda _: again)
         # The other checks do not look at stitch files.
-        looking = verification._check_files, verification._check_stitches
+        looking = verification._check_files, verification.sewn_faults
         patched.setattr(verification, "CHECKS", looking)
         yield target, (target / PATH).read_bytes()
 

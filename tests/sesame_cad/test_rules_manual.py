@@ -12,6 +12,8 @@ ROOT = Path(__file__).parents[2]
 MANUAL = ROOT / "docs" / "rules.md"
 TABLE = re.compile(r"(<!-- rules: .*? -->\n).*(<!-- end of rules -->)", re.DOTALL)
 
+OF_SHEETS = ("beam_rules.py", "cut_rules.py", "nest_rules.py")
+
 
 def _with_table(text):
     return TABLE.sub(lambda found: f"{found[1]}\n{catalogue_table()}\n\n{found[2]}", text)
@@ -20,12 +22,13 @@ def _with_table(text):
 def names_in_code():
     """Words that a rule's module gives as the rule of a violation."""
     found = set()
-    for file in Path(catalogue.__file__).parent.glob("*.py"):
+    rules = Path(catalogue.__file__).parent
+    for file in (*rules.glob("*.py"), *(rules.parent / name for name in OF_SHEETS)):
         if file.name == "catalogue.py":
             continue
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call):
-                found |= {a.value for a in node.args[:2] if isinstance(a, ast.Constant)}
+            if isinstance(node, ast.Call) and not ast.unparse(node.func).endswith(".replace"):
+                found |= {a.value for a in node.args[:3] if isinstance(a, ast.Constant)}
             elif isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "_RULE":
                 found.add(node.value.value)
     return {name for name in found if isinstance(name, str) and re.fullmatch(r"[a-z-]{3,}", name)}

@@ -3,8 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solver.errors import SceneError
 from solver.strip.ends import Ends, buckling_loads
-from solver.strip.landscape import energy_landscape
+from solver.strip.landscape import energy_landscape, energy_to_minus
 from solver.strip.scene import StripScene
 from solver.strip.snap import solve_strip
 from solver.strip.state import Side
@@ -59,3 +60,38 @@ def test_beyond_the_critical_couple_one_valley_is_left():
         found = energy_landscape(replace(SCENE, couple_bottom_N_m=factor * critical), 73)
         upward = (found.slope_J[:-1] < 0) & (found.slope_J[1:] > 0)
         assert np.count_nonzero(upward) == valleys
+
+
+@pytest.mark.parametrize("stiffening", [0.0, 2.0])
+def test_the_way_to_minus_is_half_of_the_way_round(stiffening):
+    scene = replace(
+        SCENE,
+        couple_bottom_N_m=5e-4,
+        sleeve_stiffness_N_m2=stiffening * SCENE.stiffness_N_m2,
+    )
+    whole, half = energy_landscape(scene, samples=25), energy_to_minus(scene, samples=13)
+    assert half.phase_rad == pytest.approx(np.linspace(0, np.pi, 13))
+    assert half.energy_J == pytest.approx(whole.energy_J[:11:-1], rel=1e-7)
+    assert half.slope_J == pytest.approx(-whole.slope_J[:11:-1], abs=1e-9)
+    assert half.height_m == pytest.approx(whole.height_m[:11:-1], abs=1e-7)
+
+
+def test_the_way_to_minus_is_downhill_beyond_the_critical_couple():
+    stiff = replace(SCENE, sleeve_stiffness_N_m2=2 * SCENE.stiffness_N_m2)
+    critical = solve_strip(stiff).pushed[Side.UP].critical_couple_N_m
+    found = energy_to_minus(replace(stiff, couple_bottom_N_m=1.2 * critical), samples=25)
+    down = np.flatnonzero(found.slope_J < 0)
+    assert down[0] == 0
+    assert np.all(np.diff(down) == 1)
+    assert found.height_m[down[-1]] < 0
+
+
+def test_states_of_a_stiffened_strip_lie_at_their_phases():
+    nearly = replace(SCENE, constraint_m=SCENE.length_m * (1 - 1e-6))
+    found = energy_to_minus(replace(nearly, sleeve_stiffness_N_m2=3 * SCENE.stiffness_N_m2), 5)
+    assert found.slope_J[[0, 2, 4]] == pytest.approx(0, abs=1e-4 * np.ptp(found.energy_J))
+
+
+def test_a_couple_the_other_way_is_refused():
+    with pytest.raises(SceneError, match="must be at least 0 for the way from state"):
+        energy_to_minus(replace(SCENE, couple_top_N_m=1e-4))

@@ -1,0 +1,1 @@
+"""Sleeves around beams: two hoopings, the cut pieces between them, and what they do."""

@@ -1,0 +1,122 @@
+"""Reading beams with sleeves back from disk: is every file what it claims to be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from patterns.errors import PatternError
+from patterns.violation import Violation
+from sesame_cad.cut_checks import CUT_READERS
+from sesame_cad.differences import differences
+from sesame_cad.errors import DesignFileError
+from sesame_cad.files.cut_dxf import read_cut_dxf
+from sesame_cad.files.cut_line import CUT, HOLE, CutLine, same_lines
+from sesame_cad.files.cut_svg import read_cut_svg
+from sesame_cad.package_checks import (
+    MOST_FAULTS,
+    MOST_OF_A_RULE,
+    Faults,
+    Verification,
+    fabric_faults,
+    file_faults,
+    limited,
+    sewn_faults,
+)
+from sesame_cad.pipeline import Design
+from sesame_cad.reading import Reading
+from sesame_cad.sleeve.cutting import Sheet
+from sesame_cad.sleeve.data import sleeve_design_data
+from sesame_cad.sleeve.design import SleeveDesign
+from sesame_cad.sleeve.package import sheet_lines
+from sesame_cad.sleeve.pattern import LOWER, tie_violations
+from sesame_cad.staging import DESIGN_FILE
+
+Data = dict[str, Any]
+
+_READERS = MappingProxyType[str, Callable[[bytes], tuple[CutLine, ...]]](
+    {"svg": read_cut_svg, "dxf": read_cut_dxf}
+)
+
+
+def checked_sleeves(folder: Path, data: Data, made: SleeveDesign) -> Verification:
+    """Compare a folder with the design that it should hold."""
+    readings = {name: Reading(folder, data, one) for name, one in made.hoopings.items()}
+    lower = readings[LOWER]
+    parts: list[Faults] = [
+        file_faults(lower, _expected_files(made)),
+        differences(data, sleeve_design_data(made, data["files"]), DESIGN_FILE),
+        *(sewn_faults(reading) for reading in readings.values()),
+        *(fabric_faults(reading) for reading in readings.values()),
+        _tie_faults(made, lower),
+        *(_sheet_faults(lower, made, sheet) for sheet in made.pattern.cutting.sheets),
+    ]
+    faults = tuple(chain.from_iterable(limited(part, MOST_FAULTS) for part in parts))
+    return _with_plan(made, faults, readings)
+
+
+def _with_plan(
+    made: SleeveDesign, faults: tuple[str, ...], readings: dict[str, Reading]
+) -> Verification:
+    """Add the first plan that breaks rules, for a picture."""
+    try:
+        broken: list[tuple[Design | None, tuple[Violation, ...]]] = [
+            (one.sewn, one.violations) for one in readings.values() if one.violations
+        ]
+        ties = _tie_violations(made, readings[LOWER])
+    except (DesignFileError, PatternError):
+        return Verification(faults)  # which tell it
+    broken += [(readings[LOWER].sewn, ties)] if ties else []
+    return Verification(faults, *broken[0]) if broken else Verification(faults)
+
+
+def _expected_files(made: SleeveDesign) -> Iterator[str]:
+    spec = made.spec
+    for layer, hooping in made.hoopings.items():
+        name = hooping.spec.name
+        yield from (f"stitch/{name}.{kind}" for kind in (*spec.output.formats, "blocks.csv"))
+        yield f"worksheet/{name}.pdf"
+        yield from (f"cut/{name}.{kind}" for kind in CUT_READERS)
+        if spec.output.pictures:
+            yield f"pictures/plan-{layer}.png"
+    for sheet in made.pattern.cutting.sheets:
+        yield from (f"cut/{spec.name}-{sheet.name}.{kind}" for kind in _READERS)
+    yield f"plan/{spec.name}.svg"
+
+
+def _tie_violations(made: SleeveDesign, lower: Reading) -> tuple[Violation, ...]:
+    """Hold the ties of the DST file against beams and the upper array."""
+    if lower.sewn is None:
+        return ()
+    return tie_violations(made.spec, replace(made.pattern, lower=lower.sewn.pattern))
+
+
+def _tie_faults(made: SleeveDesign, lower: Reading) -> Faults:
+    path = f"stitch/{lower.made.spec.name}.dst"
+    try:
+        found = _tie_violations(made, lower)
+    except (DesignFileError, PatternError):
+        return  # which is told of the file
+    yield from limited((f"{path}: {fault}" for fault in found), MOST_OF_A_RULE)
+
+
+def _sheet_faults(reading: Reading, made: SleeveDesign, sheet: Sheet) -> Faults:
+    """Cut files of a sheet hold its lines, in order."""
+    lines = sheet_lines(sheet)
+    layered = tuple(line for layer in (HOLE, CUT) for line in lines if line.layer == layer)
+    for kind, expected in (("svg", layered), ("dxf", lines)):
+        path = f"cut/{made.spec.name}-{sheet.name}.{kind}"
+        content = reading.content(path)
+        if content is None:
+            continue
+        try:
+            found = _READERS[kind](content)
+        except DesignFileError as error:
+            yield f"{path}: {error}"
+            continue
+        if not same_lines(found, expected):
+            yield f"{path}: the lines are not those of the sheet, in their order"

@@ -1,0 +1,1 @@
+"""What the sleeves of a specification do to their beams: forces, states, previews, chains."""
