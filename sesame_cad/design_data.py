@@ -113,7 +113,7 @@ def loop_data(found: Equilibrium, seconds: float) -> Data:
         **solve_account(found),
         "height_change": found.height_change,
         "seconds": round(seconds, 6),
-        "omitted_terms": _omitted_data(found.omitted),
+        "omitted_terms": omitted_data(found.omitted),
     }
 
 
@@ -134,7 +134,7 @@ def state_data(state: ShapeState) -> Data:
         "footprint_mm": [width, depth],
         "energy_mJ": state.energy_mJ,
         "array_energy_mJ": state.array_energy_mJ,
-        "omitted_terms": _omitted_data(state.omitted),
+        "omitted_terms": omitted_data(state.omitted),
     }
 
 
@@ -151,7 +151,8 @@ def _solve_data(state: ShapeState) -> Data:
     }
 
 
-def _omitted_data(omitted: tuple[OmittedTerm, ...]) -> list[Data]:
+def omitted_data(omitted: tuple[OmittedTerm, ...]) -> list[Data]:
+    """What is left out, each with the number that tells whether it matters."""
     return [
         {"term": t.term, "measure": t.measure, "value": t.value, "matters": t.matters}
         for t in omitted

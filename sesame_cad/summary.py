@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +61,50 @@ def print_answer(data: Data) -> None:
         mark = "[yellow]warning[/], left out" if left["matters"] else "left out"
         value = "" if left["value"] is None else f" = {left['value']:.3g}"
         console.print(f"{mark}: {left['term']} ({left['measure']}{value})")
+
+
+def print_force(data: Data, folder: Path | None) -> None:
+    """Print the forces of one loop between plates."""
+    console = Console(highlight=False)
+    pairs = data.get("curve") or [data]
+    for name in ("cold", "hot"):
+        for left in _mattering(pair[name] for pair in pairs):
+            console.print(f"[yellow]warning[/]: {name}: {left} is left out, and matters")
+    table = Table(box=None, pad_edge=False)
+    for heading in ("gap", "force cold", "hot", "height cold", "hot"):
+        table.add_column(heading, justify="right")
+    for pair in pairs:
+        states = [pair["cold"], pair["hot"]]
+        table.add_row(
+            f"{pair['gap_mm']:g} mm",
+            *(_with_unit(state["force_N"], "N", ".3f") for state in states),
+            *(_with_unit(state.get("height_mm"), "mm", ".2f") for state in states),
+        )
+    console.print(f"{data['name']}: one loop between two plates, {data['axis']}")
+    console.print(table)
+    for fault in dict.fromkeys(
+        pair[name]["status"] for pair in pairs for name in ("cold", "hot") if name in pair
+    ):
+        if fault != "converged":
+            console.print(f"no force: {fault}", soft_wrap=True)
+    if folder is not None:
+        console.print(f"wrote {folder}/", soft_wrap=True)
+
+
+def _mattering(states: Iterable[Data]) -> list[str]:
+    """Terms that are left out of any of the states and matter there."""
+    return list(
+        dict.fromkeys(
+            left["term"]
+            for state in states
+            for left in state.get("omitted_terms", ())
+            if left["matters"]
+        )
+    )
+
+
+def _with_unit(value: float | None, unit: str, style: str) -> str:
+    return "none" if value is None else f"{value:{style}} {unit}"
 
 
 def _number(value: float | None, style: str) -> str:

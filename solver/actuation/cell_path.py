@@ -172,9 +172,7 @@ class CellPath:
         )
 
 
-def cell_path(
-    cell: HeatedCell, *, states: int = PATH_STATES, tolerance: float = 1e-4
-) -> CellPath:
+def cell_path(cell: HeatedCell, *, states: int = PATH_STATES, tolerance: float = 1e-4) -> CellPath:
     """Follow the free cell from cold to hot and back.
 
     Parameters
@@ -251,4 +249,3 @@ class CellResponse:
             near = slice(-3, None) if flat_left else slice(0, 3)
             level = float(np.polyval(np.polyfit(known[near], own[near], rank), turning))
         return np.insert(self.fractions, k, turning), np.insert(values, k, level)
-

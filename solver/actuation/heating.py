@@ -11,6 +11,7 @@ its integrand is smooth between the transformation temperatures, and does not bl
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -114,9 +115,7 @@ class Heating:
         limit = MELTING_C if begin > 0 else self.surroundings.ambient_C
         marks = [t for t in self.wire.transformation.temperatures_C if _between(start_C, t, limit)]
         edges = sorted([start_C, *marks, limit], reverse=begin < 0)
-        places = np.concatenate(
-            [np.linspace(a, b, _SAMPLES) for a, b in zip(edges, edges[1:], strict=False)]
-        )
+        places = np.concatenate([np.linspace(a, b, _SAMPLES) for a, b in itertools.pairwise(edges)])
         turned = np.flatnonzero(self.net_W_m(places) * begin <= 0)
         if not turned.size:
             return None
@@ -155,7 +154,7 @@ class Heating:
         places = [0.0, *(mark for mark in marks if mark < end), end]
         counts = [
             max(math.ceil((b - a) / self.panel), math.ceil(_FEWEST_PANELS * PANEL / self.panel))
-            for a, b in zip(places, places[1:], strict=False)
+            for a, b in itertools.pairwise(places)
         ]
         pieces = [
             np.linspace(a, b, count, endpoint=False)

@@ -93,6 +93,16 @@ class Transformation:
         there = np.asarray(temperature_C, dtype=float)
         return _rise(there, self.martensite_finish_C, self.martensite_start_C)
 
+    def heated_to(self, fraction: float) -> float:
+        """Temperature in °C at which a heating from martensite has this fraction of austenite."""
+        low, high = self.austenite_start_C, self.austenite_finish_C
+        return low + (high - low) * math.acos(1 - 2 * fraction) / math.pi
+
+    def cooled_to(self, fraction: float) -> float:
+        """Temperature in °C at which a cooling from austenite has this fraction left."""
+        low, high = self.martensite_finish_C, self.martensite_start_C
+        return low + (high - low) * math.acos(1 - 2 * fraction) / math.pi
+
     def along(
         self,
         fraction: float,
