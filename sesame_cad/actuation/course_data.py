@@ -18,6 +18,9 @@ from solver.omitted import OmittedTerm
 Data = dict[str, Any]
 
 FORMAT_VERSION = 1
+THREAD_MELTS_C = 250.0
+"""Polyester, of which embroidery thread is made, melts from about here on (250 to 260 °C)."""
+
 _SMALL = 0.01
 """A fraction of austenite below this is none."""
 
@@ -224,6 +227,12 @@ def _warnings(made: Actuation) -> Iterator[str]:
         yield (
             f"the wire does not transform: it reaches {made.history.course.temperature_C.max():.1f}"
             f" C, and austenite begins at {law.austenite_start_C:g} C"
+        )
+    highest_C = float(made.history.course.temperature_C.max())  # noqa: N806
+    if highest_C > THREAD_MELTS_C:
+        yield (
+            f"the wire reaches {highest_C:.0f} C, and polyester thread melts at "
+            f"{THREAD_MELTS_C:g} C; lower wire.current_A or actuation.heating_s"
         )
     stays = float(law.cooled(heat.ambient_C))
     if stays > _SMALL:

@@ -16,6 +16,9 @@ from solver.equilibrium import Equilibrium
 
 Values = NDArray[np.float64]
 
+_ROOM_C = 5.0
+"""The picture of the path goes on this far beyond the transformations."""
+
 _LOAD_FRACTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
@@ -108,20 +111,18 @@ def _standing(made: Actuation, fraction: float) -> tuple[Values, Values]:
 
 def _path_picture(made: Actuation, columns: dict[str, Column]) -> bytes:
     way = np.array(columns["way"])
+    temperature_C = np.array(columns["temperature_C"])  # noqa: N806
+    ends_C = temperature_C.min() - _ROOM_C, temperature_C.max() + _ROOM_C  # noqa: N806
+
+    def line(key: str, name: str, colour: str) -> Line:
+        """One way, with the stretches before and after in which the wire only changes heat."""
+        outer = ends_C if name == "heating" else ends_C[::-1]
+        known, own = temperature_C[way == name], np.array(columns[key])[way == name]
+        x = np.concatenate([outer[:1], known, outer[1:]])
+        return Line(x, np.concatenate([own[:1], own, own[-1:]]), name, colour, marked=True)
+
     panels = [
-        Panel(
-            quantity,
-            [
-                Line(
-                    np.array(columns["temperature_C"])[way == name],
-                    np.array(columns[key])[way == name],
-                    name,
-                    colour,
-                    marked=True,
-                )
-                for name, colour in (("heating", HOT), ("cooling", COLD))
-            ],
-        )
+        Panel(quantity, [line(key, "heating", HOT), line(key, "cooling", COLD)])
         for quantity, key in (
             ("height in mm", "height_mm"),
             ("pitch in mm", "pitch_mm"),

@@ -25,6 +25,7 @@ from solver.actuation.wire import MELTING_C, HeatedWire, Surroundings, WireState
 from solver.errors import SceneError
 
 Values = NDArray[np.float64]
+Places = NDArray[np.intp]
 
 GAUSS_POINTS = 3
 PANEL = 0.1
@@ -89,6 +90,10 @@ class Heating:
         """q: what a metre of wire gains, at temperatures on its way."""
         return self._joule_W_m(temperature_C) - self._loss_W_m(temperature_C)
 
+    @property
+    def _kinks_C(self) -> tuple[float, ...]:  # noqa: N802
+        return self.wire.transformation.kinks_C(self.start.fraction)
+
     def _fraction(self, there: Values) -> tuple[Values, Values]:
         start = self.start
         return self.wire.transformation.along(start.fraction, start.temperature_C, there)
@@ -113,7 +118,7 @@ class Heating:
         if begin == 0:
             return start_C
         limit = MELTING_C if begin > 0 else self.surroundings.ambient_C
-        marks = [t for t in self.wire.transformation.temperatures_C if _between(start_C, t, limit)]
+        marks = [t for t in self._kinks_C if _between(start_C, t, limit)]
         edges = sorted([start_C, *marks, limit], reverse=begin < 0)
         places = np.concatenate([np.linspace(a, b, _SAMPLES) for a, b in itertools.pairwise(edges)])
         turned = np.flatnonzero(self.net_W_m(places) * begin <= 0)
@@ -141,14 +146,14 @@ class Heating:
 
     @cached_property
     def _edges(self) -> Values:
-        """Panels of s, with an edge at each transformation temperature."""
+        """Panels of s, with an edge wherever the law of the wire changes."""
         start_C, target = self.start.temperature_C, self._target  # noqa: N806
         if target == start_C:
             return np.zeros(1)
         end = _NEAR_ENOUGH if self.final_C is not None else math.log(2.0)
         marks = sorted(
             math.log((target - start_C) / (target - t))
-            for t in self.wire.transformation.temperatures_C
+            for t in set(self._kinks_C)
             if _between(start_C, t, target)
         )
         places = [0.0, *(mark for mark in marks if mark < end), end]
@@ -213,7 +218,7 @@ class Heating:
         loss = gained[2] + still * self._loss_W_m(there)
         return Course(times, there, fraction, joule, loss)
 
-    def _solved(self, k: Values, times: Values) -> Values:
+    def _solved(self, k: Places, times: Values) -> Values:
         """Find s at times that lie in panels k; Newton's steps, kept inside the panel."""
         low, high = self._edges[k], self._edges[k + 1]
         begin, end = self._at_edges[0][k], self._at_edges[0][k + 1]

@@ -33,13 +33,12 @@ class Transformation:
 
     Heated from martensite the fraction of austenite is f_A(T), half a cosine from As to Af; cooled
     from austenite it is f_M(T), half a cosine from Ms to Mf (Liang and Rogers, J. Intell. Mater.
-    Syst. Struct. 1 (1990) 207). From any other state the same share of what is left transforms:
+    Syst. Struct. 1 (1990) 207). From any other state it stays as it is until it meets its branch:
 
-        1 − ξ = (1 − ξ0) (1 − f_A(T)) / (1 − f_A(T0))  when heated,
-        ξ = ξ0 f_M(T) / f_M(T0)  when cooled,
+        ξ = max(ξ0, f_A(T))  when heated,   ξ = min(ξ0, f_M(T))  when cooled,
 
-    which are Liang and Rogers' laws for ξ0 outside of the ranges, and do not depend on the
-    temperatures at which a heating or cooling pauses.
+    the play operator (Visintin, Differential Models of Hysteresis, 1994, ch. III). A wire that has
+    turned back on its way comes to the same state again, and a pause changes nothing.
 
     Attributes
     ----------
@@ -125,15 +124,19 @@ class Transformation:
         fraction, slope : array (n,)
             ξ and dξ/dT.
         """
-        if temperature_C.size and temperature_C.min() < start_C:
-            full = float(self.cooled(start_C))
-            share = fraction / full if full > 0 else 0.0
+        # round-off at the start itself must not turn the way around
+        lowest, highest = temperature_C.min(initial=start_C), temperature_C.max(initial=start_C)
+        if start_C - lowest > highest - start_C:
+            branch = self.cooled(temperature_C)
             slope = _slope(temperature_C, self.martensite_finish_C, self.martensite_start_C)
-            return share * self.cooled(temperature_C), share * slope
-        left = 1 - float(self.heated(start_C))
-        share = (1 - fraction) / left if left > 0 else 0.0
+            return np.minimum(fraction, branch), np.where(branch < fraction, slope, 0.0)
+        branch = self.heated(temperature_C)
         slope = _slope(temperature_C, self.austenite_start_C, self.austenite_finish_C)
-        return 1 - share * (1 - self.heated(temperature_C)), share * slope
+        return np.maximum(fraction, branch), np.where(branch > fraction, slope, 0.0)
+
+    def kinks_C(self, fraction: float) -> tuple[float, ...]:  # noqa: N802
+        """Temperatures at which the way from a state may change its law."""
+        return (*self.temperatures_C, self.heated_to(fraction), self.cooled_to(fraction))
 
     def after(self, fraction: float, start_C: float, end_C: float) -> float:  # noqa: N803
         """ξ after a heating or cooling to another temperature."""
