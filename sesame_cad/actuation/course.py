@@ -21,7 +21,7 @@ from sesame_cad.actuation.subject import (
 from sesame_cad.errors import InputError
 from sesame_cad.omissions import GRAVITY_M_S2
 from sesame_cad.specification import Specification
-from solver.actuation.cell_path import CellPath, cell_path
+from solver.actuation.cell_path import CellPath, HeatedCell, cell_path
 from solver.actuation.duty import Duty, History, follow
 from solver.actuation.heating import Heating
 from solver.actuation.lifting import LoadTable, height_history, load_table
@@ -170,10 +170,40 @@ def _reached(times: Values, changes: Values, wanted: float) -> float | None:
     return float(times[k - 1] + share * (times[k] - times[k - 1]))
 
 
+@dataclass(frozen=True)
+class SolvedCell:
+    """The mechanics of one cell, which neither current nor load nor temperatures change."""
+
+    cell: HeatedCell
+    path: CellPath
+    table: LoadTable
+
+
+def solved_cell(
+    spec: Specification, progress: Callable[[str], None] = lambda _: None
+) -> SolvedCell:
+    """Solve the cell of a specification, free from cold to hot and back, and under loads.
+
+    Raises
+    ------
+    InputError
+        When one cell is not all there is to it, or a number lies outside the model.
+    NotConvergedError
+        When there is no shape to rely on.
+    """
+    check_one_cell(spec)
+    cell = heated_cell(spec)
+    progress("shapes from cold to hot and back")
+    path = cell_path(cell, tolerance=spec.model.tolerance)
+    progress("shapes under load")
+    return SolvedCell(cell, path, load_table(cell, path.response))
+
+
 def actuate(
     spec: Specification,
     current_A: float | None = None,  # noqa: N803
     progress: Callable[[str], None] = lambda _: None,
+    solved: SolvedCell | None = None,
 ) -> Actuation:
     """Heat and cool the array of a specification.
 
@@ -183,16 +213,19 @@ def actuate(
         Instead of the specification's; 0 is no current.
     progress : callable
         Told what is being done.
+    solved : SolvedCell, optional
+        Of the same cell, to spare its solution.
 
     Raises
     ------
     InputError
-        When one cell is not all there is to it, a number lies outside the model, or the wire melts.
+        When one cell is not all there is to it, a number lies outside the model, the wire melts,
+        or ``solved`` is another cell's.
     NotConvergedError
         When there is no shape to rely on.
     """
     check_one_cell(spec)
-    cell, wire = heated_cell(spec), heated_wire(spec)
+    wire = heated_wire(spec)
     try:
         around = surroundings(spec)
         cycles = duty(spec, spec.current_A if current_A is None else current_A)
@@ -200,11 +233,10 @@ def actuate(
         history = follow(wire, around, start, cycles.intervals, samples=SAMPLES)
     except SceneError as error:
         raise InputError(f"{spec.name}: {error}") from None
-    progress("wire")
+    progress("wire and cut lines")
     body = array_body(spec)
-    progress("shapes from cold to hot and back")
-    path = cell_path(cell, tolerance=spec.model.tolerance)
-    progress("shapes under load")
-    table = load_table(cell, path.response)
+    own = solved_cell(spec, progress) if solved is None else solved
+    if own.cell != heated_cell(spec):
+        raise InputError(f"{spec.name}: the solved cell is another one's")
     materials = cold_materials(spec)
-    return Actuation(spec, body, materials, wire, around, cycles, history, path, table)
+    return Actuation(spec, body, materials, wire, around, cycles, history, own.path, own.table)

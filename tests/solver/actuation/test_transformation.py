@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solver.actuation.transformation import Transformation
@@ -32,6 +32,7 @@ def test_from_martensite_and_from_austenite_it_is_the_full_branch():
 
 
 @given(st.floats(0, 1), FAR, FAR, FAR)
+@settings(max_examples=40)
 def test_a_pause_on_the_way_changes_nothing(fraction, begin, middle, end):
     begin, middle, end = sorted([begin, middle, end])
     start = float(np.clip(fraction, LAW.heated(begin), LAW.cooled(begin)))
