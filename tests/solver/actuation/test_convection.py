@@ -47,3 +47,15 @@ def test_one_second_currents_of_makers_tables_reach_the_transformation(diameter_
 def test_impossible_input_is_refused(diameter, temperature):
     with pytest.raises(SceneError):
         natural_convection_W_m2K(diameter, temperature, 25.0)
+
+
+def test_a_wire_worked_by_hand_with_tabulated_air():
+    """0.5 mm, 127 °C in 27 °C; air at 350 K of Incropera and DeWitt's table A.4: 20.92e-6 m²/s,
+    29.9e-6 m²/s, 0.0300 W/mK. Ra = 0.560, Nu = 0.7945."""
+    assert natural_convection_W_m2K(5e-4, 127.0, 27.0) == pytest.approx(47.7, rel=0.015)
+
+
+def test_loss_of_a_metre():
+    law = Transformation(70.0, 80.0, 50.0, 40.0)
+    wire = HeatedWire(3e-4, 6450.0, 80e-8, 100e-8, 28e9, 75e9, law)
+    assert Surroundings(25.0, 60.0).loss_W_mK(wire) == pytest.approx(0.0565487, rel=1e-5)
