@@ -19,6 +19,8 @@ COMMANDS = MappingProxyType(
         "check": "Read a design back from disk and verify every file.",
         "solve": "Solve one dimensionless loop.",
         "chain": "Write the curve of a chain of beams, each in one of its states.",
+        "force": "Press one loop between plates, cold and hot.",
+        "actuate": "Heat the array: height, load, time and power.",
         "export-evolver": "Write a loop as a datafile of Surface Evolver.",
         "machines": "List machine profiles, or print one to start your own from.",
         "coupon": "Make a coupon to find the settings for your wire.",

@@ -82,7 +82,7 @@ def _files(made: Design, records: Records, progress: Progress) -> Files:
         yield from pictures(made, progress)
 
 
-def pictures(made: Design, progress: Progress = lambda _: None) -> Iterator[tuple[str, bytes]]:
+def pictures(made: Design, progress: Progress = lambda _: None) -> Files:
     """Draw the wire's path, and the shapes if there are any; by their paths in the folder."""
     laid = made.pattern
     progress("picture of the wire path")

@@ -143,18 +143,34 @@ def refusing(spec: Specification, work: Callable[[], Result]) -> Result:
         raise InputError(f"{spec.name}: {error}") from None
 
 
-def _pattern(spec: Specification) -> Pattern:
-    stitching, machine = spec.patterns_stitching(), spec.patterns_machine()
-    wire_mm = spec.diameters_mm
+def wire_and_cut(spec: Specification) -> tuple[Circuit, Outline]:
+    """Lay the wire and draw the cut lines, without a stitch.
+
+    Raises
+    ------
+    InputError
+        When the array cannot be laid or cut as specified.
+    """
+    return _refusing(spec, partial(_wire_and_cut, spec))
+
+
+def _wire_and_cut(spec: Specification) -> tuple[Circuit, Outline]:
     layout = tangent_layout(spec.layout.loops(), spec.layout.tolerance_mm)
     circuit = wired(spec, layout)
     outline = cut_outline(
         circuit,
-        wire_mm,
+        spec.diameters_mm,
         spec.outline.margin_mm,
         spec.outline.corner_radius_mm,
         keep_between=spec.layout.between == "kept",
     )
+    return circuit, outline
+
+
+def _pattern(spec: Specification) -> Pattern:
+    stitching, machine = spec.patterns_stitching(), spec.patterns_machine()
+    wire_mm = spec.diameters_mm
+    circuit, outline = _wire_and_cut(spec)
     marks = registration_marks(outline.bounds_mm, stitching.mark_size_mm, stitching.mark_gap_mm)
     plan = stitch_plan(circuit, stitching, machine, wire_mm, marks)
     net = net_of_stitches(spec, circuit, plan)

@@ -96,6 +96,9 @@ TEMPERATURE_C = Kind(
     ),
     "40C",
 )
+MASS_G = _kind("a mass", "40g", **{"g": "1", "kg": "1000", "mg": "0.001"})
+TIME_S = _kind("a time", "10s", **{"s": "1", "ms": "0.001", "min": "60"})
+CURRENT_A = _kind("a current", "1.3A", **{"A": "1", "mA": "0.001"})
 
 _BY_ENDING: Mapping[str, Kind] = MappingProxyType(
     {
@@ -109,6 +112,29 @@ _BY_ENDING: Mapping[str, Kind] = MappingProxyType(
         "prestrain": STRAIN,
     }
 )
+
+
+_RANGE_UNIT = re.compile(r"[^\d.eE+-].*$")
+
+
+def parse_range(kind: Kind, text: str) -> tuple[float, float]:
+    """Read two quantities, "15..45mm" or "1.5cm..45mm", the first below the second.
+
+    Raises
+    ------
+    ValueError
+        With one line that says how to write it.
+    """
+    low, dots, high = text.partition("..")
+    unit = _RANGE_UNIT.search(high.strip())
+    if not dots:
+        raise ValueError(f"{text!r} is not a range: write 2 of {kind.example} with .. between them")
+    if unit and not _RANGE_UNIT.search(low.strip()):
+        low = f"{low.strip()}{unit[0]}"
+    first, second = kind.parse(low), kind.parse(high)
+    if not first < second:
+        raise ValueError(f"{text!r}: the first must be less than the second")
+    return first, second
 
 
 def kind_of(key: str) -> Kind:

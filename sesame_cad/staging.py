@@ -14,11 +14,11 @@ from typing import cast
 from sesame_cad.errors import InputError
 
 DESIGN_FILE = "design.json"
-"""Marks a directory as a result; its "files" lists the others by their relative paths."""
+"""Marks a directory as a design; its "files" lists the others by their relative paths."""
 
 
 @contextmanager
-def staged_directory(target: Path) -> Generator[Path]:
+def staged_directory(target: Path, listing: str = DESIGN_FILE) -> Generator[Path]:
     """Write into a new directory that takes the target's place once everything is written.
 
     On any exception the target stays as it was. An earlier result is replaced; anything else in
@@ -28,6 +28,8 @@ def staged_directory(target: Path) -> Generator[Path]:
     ----------
     target : Path
         Where the result goes. Its parent must exist.
+    listing : str
+        Name of the file that marks a result of this kind.
 
     Yields
     ------
@@ -40,11 +42,11 @@ def staged_directory(target: Path) -> Generator[Path]:
         When the target must not be replaced or its parent cannot be written to.
     """
     target = target.absolute()
-    _check_replaceable(target)
+    _check_replaceable(target, listing)
     staging = _sibling(target, "new")
     try:
         yield staging
-        _check_replaceable(target)
+        _check_replaceable(target, listing)
         # mkdtemp's directories are their owner's alone; results are as readable as others' are.
         staging.chmod(0o777 & ~_umask())
         _move_into_place(staging, target)
@@ -128,7 +130,7 @@ def _check_parent(target: Path) -> None:
         raise InputError(f"{target.parent} is no directory: make it, or choose another place")
 
 
-def _check_replaceable(target: Path) -> None:
+def _check_replaceable(target: Path, listing: str) -> None:
     _check_parent(target)
     if not os.path.lexists(target):
         return
@@ -136,12 +138,12 @@ def _check_replaceable(target: Path) -> None:
         raise InputError(f"{target} is no directory: it stays as it is; choose another place")
     if not any(target.iterdir()):
         return
-    if not (target / DESIGN_FILE).is_file():
-        raise InputError(f"{target} holds files but no {DESIGN_FILE}, so it is no earlier result")
-    foreign = sorted(_held(target) - _listed(target))
+    if not (target / listing).is_file():
+        raise InputError(f"{target} holds files but no {listing}, so it is no earlier result")
+    foreign = sorted(_held(target) - _listed(target, listing))
     if foreign:
         raise InputError(
-            f"{target} holds {foreign[0]}, which its {DESIGN_FILE} does not list: move it away"
+            f"{target} holds {foreign[0]}, which its {listing} does not list: move it away"
         )
 
 
@@ -155,15 +157,15 @@ def _held(target: Path) -> set[str]:
     }
 
 
-def _listed(target: Path) -> set[str]:
+def _listed(target: Path, listing: str) -> set[str]:
     try:
-        design: object = json.loads((target / DESIGN_FILE).read_text(encoding="utf-8"))
+        design: object = json.loads((target / listing).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise InputError(f"{target / DESIGN_FILE} cannot be read: {error}") from error
+        raise InputError(f"{target / listing} cannot be read: {error}") from error
     files = cast("dict[str, object]", design).get("files") if isinstance(design, dict) else None
     if not isinstance(files, dict):
-        raise InputError(f'{target / DESIGN_FILE} has no "files": {target} is no earlier result')
-    return {DESIGN_FILE, *(str(name) for name in cast("dict[object, object]", files))}
+        raise InputError(f'{target / listing} has no "files": {target} is no earlier result')
+    return {listing, *(str(name) for name in cast("dict[object, object]", files))}
 
 
 def _umask() -> int:

@@ -13,6 +13,7 @@ from patterns.hooks import SleevePlace
 from patterns.machine import Machine
 from patterns.stitching import Stitching
 from sesame_cad.files.dst_switches import DstSwitches
+from sesame_cad.specification.actuation import ActuationSection
 from sesame_cad.specification.beam import BeamSection
 from sesame_cad.specification.consistency import Together, inconsistencies
 from sesame_cad.specification.fabric import FabricSection
@@ -29,6 +30,7 @@ from sesame_cad.specification.supply import SupplySection
 from sesame_cad.specification.toml_text import number_text, toml_value
 from sesame_cad.specification.wire import WireSection
 from sesame_cad.specification.wiring import WiringSection
+from solver.actuation.convection import natural_convection_W_m2K
 
 PREVIEW_WIRE_DIAMETERS = 0.8
 """The preview's fabric is no thicker than this, so that its edge stays inside the wire."""
@@ -69,6 +71,9 @@ class Specification(Section):
         default=SleeveSection(),
         description='the sleeves around the beams (layout.kind = "sleeve")',
     )
+    actuation: ActuationSection = Field(
+        default=ActuationSection(), description="what happens when the current flows"
+    )
 
     @model_validator(mode="after")
     def _goes_together(self) -> Specification:
@@ -105,6 +110,16 @@ class Specification(Section):
     def current_A(self) -> float:  # noqa: N802 - the unit's own spelling
         """The current with which a circuit is heated, in A."""
         return self.wire.design_current_A
+
+    @property
+    def convection_W_m2K(self) -> float:  # noqa: N802 - the unit's own spelling
+        """Heat that the wire gives away, in W/m²K: in still air, while it transforms."""
+        given = self.actuation.convection_W_m2K
+        if given is not None:
+            return given
+        surface_C = self.wire.transition_C + self.actuation.heating_span_C / 2  # noqa: N806
+        diameter_m = self.wire.diameter_mm / 1e3
+        return natural_convection_W_m2K(diameter_m, surface_C, self.actuation.ambient_C)
 
     @property
     def diameters_mm(self) -> Diameters:

@@ -91,7 +91,11 @@ def test_what_is_written_holds_every_key():
     for name, section in sections().items():
         left_out = {"preview_thickness_mm", "current_A"} & set(written[name])
         assert left_out == ({"current_A"} if name == "supply" else set())
-        follows = {"preview_thickness_mm"} if name != "wire" else {"current_A"}
+        follows = {
+            "wire": {"current_A"},
+            "actuation": {"convection_W_m2K"},
+            "output": {"preview_thickness_mm"},
+        }.get(name, set())
         assert set(written[name]) == set(section.model_fields) - follows
     assert "# preview_thickness_mm is left to its default" in (
         specification_from(LARGE, "large").to_toml().splitlines()
@@ -276,7 +280,11 @@ UNITS = {
     "A": "in A",
     "deg": "degrees",
     "spm": "stitches per minute",
-    "s": "seconds",
+    "s": " in s",
+    "W_m2K": "W/m²K",
+    "J_gK": "J/gK",
+    "J_g": "J/g",
+    "load_g": "mass in g",
 }
 UNITLESS = ("no unit", "a count", "a word", "words", "a text", "true or false")
 
@@ -284,9 +292,11 @@ UNITLESS = ("no unit", "a count", "a word", "words", "a text", "true or false")
 def test_every_description_names_the_unit():
     for section in sections().values():
         for key, field in section.model_fields.items():
-            unit = next((text for end, text in UNITS.items() if key.endswith(f"_{end}")), None)
+            unit = next(
+                (text for end, text in UNITS.items() if f"_{key}".endswith(f"_{end}")), None
+            )
             names = (*UNITLESS, "in mm") if unit is None else (unit,)
-            assert any(name in field.description for name in names), key
+            assert any(words in field.description for words in names), key
 
 
 def test_the_schema_states_limits_choices_and_no_further_keys():

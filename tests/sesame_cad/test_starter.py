@@ -30,7 +30,9 @@ def test_the_settings_behind_a_hash_are_the_defaults():
     data = tomllib.loads(uncommented(starter_toml("mine")))
     preview = {"preview_thickness_mm": data["output"].pop("preview_thickness_mm")}
     current = data["wire"].pop("current_A")
+    convection = data["actuation"].pop("convection_W_m2K")
     specification = specification_from(data, "x")
+    assert convection == specification.convection_W_m2K
     assert specification == specification_from(LARGE, "mine")
     assert current == specification.wire.design_current_A
     assert preview["preview_thickness_mm"] == specification.preview_thickness_mm
