@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from patterns.circuit import Circuit, Crossing, CrossingKind
+from patterns.circuit import Circuit, CrossingKind
 from patterns.electrics import Drive, Supply, resistance_ohm
 from patterns.net import SewnNet
 from sesame_cad.pipeline import Pattern
@@ -34,10 +34,10 @@ def circuit_resistances_ohm(
     )
 
 
-def circuits_data(spec: Specification, laid: Pattern, covered: tuple[Crossing, ...]) -> list[Data]:
+def circuits_data(spec: Specification, laid: Pattern) -> list[Data]:
     """Keys of each circuit, in laying order; contacts are counted where they are passed last."""
     circuit = laid.circuit
-    insulated = set(covered)
+    insulated = set(laid.covered)
     resistances = circuit_resistances_ohm(spec, circuit)
     wires, names = spec.wires(len(circuit.parts)), circuit.part_names
     found: list[Data] = []

@@ -39,12 +39,16 @@ def _check_free(subject: Subject, end_mm: float, verb: str) -> list[Violation]:
     """Check that no needle point, but those of marks, lies beside the free end of the tail."""
     message = f"the stitch leaves no free wire where it {verb}, to feed and to cut: length"
     faults: list[Violation] = []
+    tip = subject.wire.at(np.array([end_mm]))
     for block in sorted(set(subject.laying.values())):
-        nearest = subject.wire.nearest(subject.needles_mm[block], subject.reach_mm)
+        needles = subject.needles_mm[block]
+        # No farther from the tip than the free end is long and the needle is from the wire.
+        near = np.flatnonzero(np.hypot(*(needles - tip).T) <= FREE_TAIL_MM + subject.reach_mm)
+        nearest = subject.wire.nearest(needles[near], subject.reach_mm)
         free = np.abs(nearest.station_mm - end_mm)
         faults.extend(
             subject.fault(
-                _RULE, message, block, int(i), actual=float(free[i]), allowed=FREE_TAIL_MM
+                _RULE, message, block, int(near[i]), actual=float(free[i]), allowed=FREE_TAIL_MM
             )
             for i in np.flatnonzero(free < FREE_TAIL_MM - 2 * ROUNDING_MM)
         )
