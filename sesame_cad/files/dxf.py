@@ -20,6 +20,12 @@ from patterns.loop_ring import Ring
 from patterns.outline import Outline
 from patterns.registration import Mark
 from sesame_cad.errors import DesignFileError
+from sesame_cad.files.dxf_vertices import (
+    all_vertices,
+    stand_in,
+    with_vertices,
+    without_vertices,
+)
 from sesame_cad.files.sheet import lay_out
 
 Strokes = tuple[NDArray[np.float64], ...]
@@ -35,20 +41,23 @@ def outline_dxf(outline: Outline, marks: tuple[Mark, ...]) -> str:
     """
     with _without_dates():
         document = _document()
-        _draw(document.modelspace(), outline, marks)
-        return _text(document)
+        lines = _draw(document.modelspace(), outline, marks)
+        return with_vertices(_text(document), lines)
 
 
-def _draw(space: Modelspace, outline: Outline, marks: tuple[Mark, ...]) -> None:
-    for ring in outline.openings:
-        space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "HOLE"})
-    for ring in outline.outsides:
-        space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "CUT"})
-    for mark in marks:
-        for stroke in mark.strokes:
-            space.add_lwpolyline(stroke.tolist(), dxfattribs={"layer": "MARK"})
+def _draw(space: Modelspace, outline: Outline, marks: tuple[Mark, ...]) -> list[Ring]:
+    """Draw every line as the vertex that stands for it, and give the lines."""
     bar = lay_out(outline, marks).check_bar
-    space.add_lwpolyline(bar.tolist(), dxfattribs={"layer": "REFERENCE"})
+    drawn = [
+        *(("HOLE", ring) for ring in outline.openings),
+        *(("CUT", ring) for ring in outline.outsides),
+        *(("MARK", stroke) for mark in marks for stroke in mark.strokes),
+        ("REFERENCE", bar),
+    ]
+    for number, (layer, _) in enumerate(drawn):
+        closed = layer in ("HOLE", "CUT")
+        space.add_lwpolyline(stand_in(number), close=closed, dxfattribs={"layer": layer})
+    return [line for _, line in drawn]
 
 
 def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
@@ -60,7 +69,7 @@ def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
         When the drawing is not in millimetres, a cut line is open or bent, or something other
         than a polyline is drawn.
     """
-    document = _read(data)
+    document, taken = _read(data)
     if document.header.get("$INSUNITS", 0) != MM:
         raise DesignFileError(
             f"the DXF's units are {document.header.get('$INSUNITS', 0)}, not 4 (mm)"
@@ -69,12 +78,13 @@ def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
     for layer, line in lines:
         if layer in ("CUT", "HOLE") and not line.closed:
             raise DesignFileError(f"a line on layer {layer} of the DXF is not closed")
-    outside = [_points(line) for layer, line in lines if layer == "CUT"]
+    rings = {
+        layer: [_points(line, taken) for of, line in lines if of == layer] for layer in _COLOURS
+    }
+    outside = rings["CUT"]
     if not outside:
         raise DesignFileError("0 lines on the DXF's layer CUT instead of one or more")
-    openings = tuple(_points(line) for layer, line in lines if layer == "HOLE")
-    strokes = tuple(_points(line) for layer, line in lines if layer == "MARK")
-    return Outline(outside[0], openings, tuple(outside[1:])), strokes
+    return Outline(outside[0], tuple(rings["HOLE"]), tuple(outside[1:])), tuple(rings["MARK"])
 
 
 def _document() -> Drawing:
@@ -104,9 +114,10 @@ def _without_dates() -> Generator[None]:
         options.write_fixed_meta_data_for_testing = before
 
 
-def _read(data: bytes) -> Drawing:
+def _read(data: bytes) -> tuple[Drawing, list[Ring]]:
     try:
-        return read(io.StringIO(data.decode("utf-8")))
+        text, taken = without_vertices(data.decode("utf-8"))
+        return read(io.StringIO(text)), taken
     # A damaged file can fail anywhere in the library.
     except (DXFError, ValueError, LookupError, TypeError, AttributeError, OSError) as error:
         raise DesignFileError(f"this is no DXF that can be read: {error}") from error
@@ -126,5 +137,8 @@ def _lines(document: Drawing) -> Iterator[tuple[str, LWPolyline]]:
         yield layer, entity
 
 
-def _points(line: LWPolyline) -> Ring:
-    return np.array([(x, y) for x, y, *_ in line.get_points()], dtype=np.float64)
+def _points(line: LWPolyline, taken: list[Ring]) -> Ring:
+    try:
+        return all_vertices([(x, y) for x, y, *_ in line.get_points()], taken)
+    except (IndexError, ValueError) as error:
+        raise DesignFileError(f"a line of the DXF cannot be read: {error}") from error
