@@ -85,7 +85,7 @@ def electrics_data(spec: Specification, laid: Pattern) -> Data:
     ]
     total = sum(drive.current_A for drive in drives)
     warnings = [
-        f"circuit {name} cannot be driven: {fault}"
+        f"the supply cannot drive {_named(circuit, name)}: {fault}"
         for name, drive in zip(circuit.part_names, drives, strict=True)
         for fault in drive.faults(supply)
     ]
@@ -114,3 +114,7 @@ def electrics_data(spec: Specification, laid: Pattern) -> Data:
         "sewn_net": net_data(laid.net),
         "warnings": warnings,
     }
+
+
+def _named(circuit: Circuit, name: str) -> str:
+    return f"circuit {name}" if len(circuit.parts) > 1 else "the array"

@@ -12,7 +12,8 @@ from patterns.rules.subject import Subject
 from patterns.violation import Violation
 from patterns.wire_index import Indices, Numbers, WireIndex
 
-INSULATION = "insulation"
+_RULE = "insulation"
+INSULATION = _RULE
 _TOLERANCE_MM = 0.01
 _PLACES = 5
 """Places of a stretch at which the wire that comes near is looked for."""
@@ -98,7 +99,7 @@ def _check_each_stage(subject: Subject) -> list[Violation]:
 def _fault(wire: WireIndex, stretch_mm: Numbers, message: str) -> Violation:
     x, y = wire.at(np.array([stretch_mm.mean()]))[0]
     bare = float(stretch_mm[1] - stretch_mm[0])
-    return Violation(INSULATION, message, float(x), float(y), actual=bare, allowed=0.0)
+    return Violation(_RULE, message, float(x), float(y), actual=bare, allowed=0.0)
 
 
 def _bare(stretches: Vectors, crossed: Numbers, largest_gap_mm: float) -> list[Numbers]:
