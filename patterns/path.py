@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -107,8 +106,11 @@ class WirePath:
         s = np.clip(np.atleast_1d(np.asarray(s_mm, dtype=float)), 0.0, self.length_mm)
         which = np.searchsorted(self._ends_mm, s, side="left")
         which = np.minimum(which, len(self.pieces) - 1)
-        x, y, first, curvature, length, ahead_x, ahead_y = self._bends[which].T
-        along = s - (self._ends_mm[which] - length)
+        return self._on_pieces(which, s - (self._ends_mm[which] - self._bends[which, 4]))
+
+    def _on_pieces(self, which: NDArray[np.int64], along: Vectors) -> tuple[Vectors, Vectors]:
+        """Points and unit tangents at lengths along pieces."""
+        x, y, first, curvature, _, ahead_x, ahead_y = self._bends[which].T
         angle = first + along * curvature
         bent, turn = curvature != 0, np.sign(curvature)
         ray_x, ray_y = (
@@ -122,14 +124,10 @@ class WirePath:
 
     def joints(self) -> tuple[Vectors, Vectors]:
         """Jump of position (mm) and of tangent between pieces, each (n - 1,); 0 when smooth."""
-        gaps: list[float] = []
-        kinks: list[float] = []
-        for before, after in pairwise(self.pieces):
-            p, t = before.at(np.array([before.length_mm]))
-            q, u = after.at(np.array([0.0]))
-            gaps.append(float(np.hypot(*(p - q)[0])))
-            kinks.append(float(np.hypot(*(t - u)[0])))
-        return np.array(gaps), np.array(kinks)
+        index = np.arange(len(self.pieces))
+        ends, leaves = self._on_pieces(index[:-1], self._bends[:-1, 4])
+        starts, sets_out = self._on_pieces(index[1:], np.zeros(len(index) - 1))
+        return np.hypot(*(ends - starts).T), np.hypot(*(leaves - sets_out).T)
 
     def polyline(self, tolerance_mm: float = 0.005) -> Vectors:
         """Points (n, 2) of a polyline whose chords stay within ``tolerance_mm`` of the path."""

@@ -6,15 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, box
 
+from patterns.cell_table import CellTable, Indices, counted
 from patterns.path import Vectors
 
 APART_MM = 4.0
 """Places nearer to one another along one wire than this are one stretch of it."""
 
 Numbers = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 
 class SewnPieces:
@@ -55,8 +54,7 @@ class SewnPieces:
         if len(self._first):
             low = np.minimum.reduceat(low, self._first)
             high = np.maximum.reduceat(high, self._first)
-        self._low, self._high = low, high
-        self._tree = STRtree(box(*low.T, *high.T))
+        self._centre_mm, self._half_mm = (low + high) / 2, np.hypot(*(high - low).T) / 2
 
     @property
     def middle_mm(self) -> Numbers:
@@ -72,8 +70,7 @@ class SewnPieces:
             Indices of the pairs; of each two pieces once, the later first, and a piece of a stretch
             that comes near itself never.
         """
-        boxes = box(*(self._low - reach_mm).T, *(self._high + reach_mm).T)
-        later, earlier = (found.astype(np.int64) for found in self._tree.query(boxes))
+        later, earlier = self._stretches_near(self._centre_mm, self._half_mm + reach_mm)
         row, number = self.row[self._first], self._number[self._first]
         follow = (row[later] == row[earlier]) & (number[later] <= number[earlier] + 1)
         kept = (later > earlier) & ~follow
@@ -89,7 +86,8 @@ class SewnPieces:
         share : array (n,)
             How far along the piece, from 0 to 1.
         """
-        stitch, piece = self._in_boxes(np.minimum(start_mm, end_mm), np.maximum(start_mm, end_mm))
+        half = np.hypot(*(end_mm - start_mm).T) / 2
+        stitch, piece = self._near((start_mm + end_mm) / 2, half)
         a, c = self.start_mm[piece], start_mm[stitch]
         own, other = self.end_mm[piece] - a, end_mm[stitch] - c
         turn = _cross(own, other)
@@ -100,7 +98,7 @@ class SewnPieces:
 
     def distance_mm(self, points_mm: Vectors, reach_mm: float) -> Numbers:
         """Distance (n,) of points (n, 2) to the nearest piece; infinite beyond the reach."""
-        point, piece = self._in_boxes(points_mm - reach_mm, points_mm + reach_mm)
+        point, piece = self._near(points_mm, np.full(len(points_mm), reach_mm))
         result = np.full(len(points_mm), np.inf)
         np.minimum.at(result, point, self.to_pieces_mm(points_mm[point], piece))
         result[result > reach_mm] = np.inf
@@ -114,19 +112,27 @@ class SewnPieces:
         share = np.clip((away * along).sum(axis=1) / square, 0.0, 1.0)
         return np.hypot(*(away - share[:, None] * along).T)
 
-    def _in_boxes(self, low_mm: Vectors, high_mm: Vectors) -> tuple[Indices, Indices]:
-        """Pair boxes with the pieces of all stretches whose own boxes meet them."""
-        found = self._tree.query(box(*low_mm.T, *high_mm.T)).astype(np.int64)
-        count = self._count[found[1]]
-        rank = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-        return np.repeat(found[0], count), np.repeat(self._first[found[1]], count) + rank
+    def _near(self, points_mm: Vectors, reach_mm: Numbers) -> tuple[Indices, Indices]:
+        """Pair points with the pieces of all stretches that may come within a reach of each."""
+        point, stretch = self._stretches_near(points_mm, reach_mm)
+        pair, rank = counted(self._count[stretch])
+        return point[pair], self._first[stretch][pair] + rank
+
+    def _stretches_near(self, points_mm: Vectors, reach_mm: Numbers) -> tuple[Indices, Indices]:
+        """Pair points with stretches around whose middle a circle comes within a reach of each."""
+        farthest = max(float(reach_mm.max(initial=0.0)), APART_MM / 2)
+        around = farthest + float(self._half_mm.max(initial=0.0))
+        table = CellTable(self._centre_mm, np.arange(len(self._centre_mm)), around)
+        point, stretch = table.near(points_mm)
+        away = points_mm[point] - self._centre_mm[stretch]
+        near = np.hypot(away[:, 0], away[:, 1]) <= reach_mm[point] + self._half_mm[stretch]
+        return point[near], stretch[near]
 
     def _expanded(self, later: Indices, earlier: Indices) -> tuple[Indices, Indices]:
         """Every piece of one stretch with every piece of the other, pair by pair of stretches."""
         width = self._count[earlier]
         count = self._count[later] * width
-        pair = np.repeat(np.arange(len(count)), count)
-        rank = np.arange(len(pair)) - np.repeat(np.cumsum(count) - count, count)
+        pair, rank = counted(count)
         a, b = np.divmod(rank, width[pair])
         return self._first[later][pair] + a, self._first[earlier][pair] + b
 

@@ -8,8 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from patterns.cell_table import Indices, counted
 from patterns.path import Line, Piece, Vectors, WirePath
-from patterns.piece_cells import Indices, PieceCells
+from patterns.piece_cells import PieceCells
 
 Numbers = NDArray[np.float64]
 
@@ -82,8 +83,7 @@ class WireIndex:
         """
         length = np.hypot(*(end_mm - start_mm).T)
         count = np.maximum(np.ceil(length / reach_mm).astype(np.int64), 1)
-        edge = np.repeat(np.arange(len(count)), count)
-        rank = np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count)
+        edge, rank = counted(count)
         share = ((rank + 0.5) / count[edge])[:, None]
         places = start_mm[edge] + share * (end_mm - start_mm)[edge]
         which, piece = self._cells.near(places, 1.5 * reach_mm)
@@ -96,7 +96,7 @@ class WireIndex:
         The place on a straight edge that is nearest to a piece it does not cross is an end of the
         edge or the foot of one of these.
         """
-        ends = np.array([piece.at(np.array([0.0, piece.length_mm]))[0] for piece in self.pieces])
+        ends = self._cells.ends_mm
         third = np.where(self._curvature[:, None] != 0, self._anchor, ends[:, 0])
         return np.concatenate([ends, third[:, None]], axis=1)
 

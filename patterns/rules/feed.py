@@ -9,7 +9,7 @@ from shapely import LineString, shortest_line
 
 from patterns.circuit import Circuit
 from patterns.couching import FREE_TAIL_MM
-from patterns.path import Line, Piece
+from patterns.path import Line, Piece, Vectors
 from patterns.rules.subject import Subject
 from patterns.stitching import ROUNDING_MM
 from patterns.terminals import CRIMP_APART_MM
@@ -28,10 +28,12 @@ def check_feed_and_cut(subject: Subject) -> list[Violation]:
     for stage, path in enumerate(circuit.stages):
         start = subject.starts_mm[stage]
         if circuit.begins_wire(stage):
-            faults.extend(_check_end(subject, path.pieces[0], start, "starts"))
+            faults.extend(_check_end(subject, path.pieces[0], path.at(0.0)[0][0], start, "starts"))
         if circuit.ends_wire(stage):
             end = start + path.length_mm
-            faults.extend(_check_end(subject, path.pieces[-1], end, "ends"))
+            faults.extend(
+                _check_end(subject, path.pieces[-1], path.at(path.length_mm)[0][0], end, "ends")
+            )
     return faults + _check_apart(subject)
 
 
@@ -57,20 +59,21 @@ def _free_ends(circuit: Circuit) -> list[LineString]:
     return [LineString(circuit.wire.at(np.array(place))[0]) for place in places]
 
 
-def _check_end(subject: Subject, tail: Piece, end_mm: float, verb: str) -> list[Violation]:
+def _check_end(
+    subject: Subject, tail: Piece, tip: Vectors, end_mm: float, verb: str
+) -> list[Violation]:
     straight = tail.length_mm if isinstance(tail, Line) else 0.0
     if straight < FREE_TAIL_MM:
-        x, y = subject.wire.at(np.array([end_mm]))[0].tolist()
+        x, y = tip.tolist()
         message = f"the wire {verb} without a straight tail to feed and to cut: length"
         return [Violation(_RULE, message, x, y, actual=straight, allowed=FREE_TAIL_MM)]
-    return _check_free(subject, end_mm, verb)
+    return _check_free(subject, tip, end_mm, verb)
 
 
-def _check_free(subject: Subject, end_mm: float, verb: str) -> list[Violation]:
+def _check_free(subject: Subject, tip: Vectors, end_mm: float, verb: str) -> list[Violation]:
     """Check that no needle point, but those of marks, lies beside the free end of the tail."""
     message = f"the stitch leaves no free wire where it {verb}, to feed and to cut: length"
     faults: list[Violation] = []
-    tip = subject.wire.at(np.array([end_mm]))
     for block in sorted(set(subject.laying.values())):
         needles = subject.needles_mm[block]
         # No farther from the tip than the free end is long and the needle is from the wire.
