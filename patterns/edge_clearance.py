@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from shapely import linestrings
 
-from patterns.path import Arc, Piece, Vectors
-from patterns.wire_index import Indices, Numbers, WireIndex
+from patterns.path import Vectors
+from patterns.wire_index import Numbers, WireIndex
 
 
 def edge_clearance_mm(
@@ -31,31 +30,15 @@ def edge_clearance_mm(
         Distance in mm; where it is more than the reach it may be too large.
     """
     result = np.full(len(start_mm), np.inf)
-    edges = np.asarray(linestrings(np.stack([start_mm, end_mm], axis=1)), dtype=np.object_)
-    edge, piece = wire.pairs(edges, reach_mm)
+    edge, piece = wire.pairs(start_mm, end_mm, reach_mm)
+    targets = wire.targets_mm[piece]
     start, end = start_mm[edge], end_mm[edge]
-    targets = np.array([_targets(one) for one in wire.pieces])
-    feet = [_foot(targets[piece, k], start, end) for k in range(targets.shape[1])]
-    for place in (start, end, *feet):
-        _lower(result, edge, wire, piece, place)
+    for place in (start, end, *(_foot(targets[:, k], start, end) for k in range(3))):
+        np.minimum.at(result, edge, wire.distance_mm(place, piece))
     return result
-
-
-def _targets(piece: Piece) -> Vectors:
-    """Ends and (for an arc) centre: the points whose feet on an edge can be nearest, (3, 2)."""
-    ends, _ = piece.at(np.array([0.0, piece.length_mm]))
-    centre = (piece.centre_x_mm, piece.centre_y_mm) if isinstance(piece, Arc) else ends[0]
-    return np.array([*ends, centre])
 
 
 def _foot(target: Vectors, start: Vectors, end: Vectors) -> Vectors:
     along = end - start
     share = np.sum((target - start) * along, axis=1) / np.sum(along**2, axis=1)
     return start + np.clip(share, 0.0, 1.0)[:, None] * along
-
-
-def _lower(
-    result: Numbers, edge: Indices, wire: WireIndex, piece: Indices, places_mm: Vectors
-) -> None:
-    distance, _, _ = wire.to_pieces(places_mm, piece)
-    np.minimum.at(result, edge, distance)

@@ -8,7 +8,9 @@ from math import pi
 
 import numpy as np
 from shapely import LineString, Polygon, STRtree, points
+from shapely.ops import substring
 
+from patterns.couching import FREE_TAIL_MM
 from patterns.errors import PatternError
 from patterns.groups import Group
 from patterns.layout import Layout
@@ -16,7 +18,13 @@ from patterns.loop import Loop
 from patterns.loop_ring import CHORD_MM, ring_around
 from patterns.path import WirePath
 from patterns.tails import Exit, tail_pieces
-from patterns.terminals import DIRECTIONS, FACING_RAD, LEAST_ALIGNMENT, TAIL_CLEAR_MM
+from patterns.terminals import (
+    CRIMP_APART_MM,
+    DIRECTIONS,
+    FACING_RAD,
+    LEAST_ALIGNMENT,
+    TAIL_CLEAR_MM,
+)
 from patterns.wire_index import Indices
 
 LEAST_BEND_MM = 4.0
@@ -39,7 +47,8 @@ def exits(
 ) -> tuple[Exit, ...]:
     """Choose loop, angle and bend of the tails of each circuit, one after the other.
 
-    A tail keeps `TAIL_CLEAR_MM` from every loop but its own and from the tails before it. Tails
+    A tail keeps `TAIL_CLEAR_MM` from every loop but its own and from the tails before it, and its
+    free end `CRIMP_APART_MM` from the free ends of those. Tails
     that stay on the tangent are taken where there is room, and those that turn outward elsewhere;
     when a straight one is in the way of a later circuit, all that can turn outward do. From other
     circuits' loops they keep `ROOMY_MM` when all can.
@@ -70,7 +79,8 @@ def exits(
     where = "anywhere" if group.anywhere else f"at the {group.side.value}"
     raise PatternError(
         f"circuit {group.name}: its tails cannot leave {where}: every way out comes nearer than "
-        f"{TAIL_CLEAR_MM:g} mm to other wire; choose another side, shorter tails or other circuits"
+        f"{TAIL_CLEAR_MM:g} mm to other wire, or {CRIMP_APART_MM:g} mm to the free end of another "
+        "tail; choose another side, shorter tails or other circuits"
     )
 
 
@@ -98,6 +108,7 @@ class _Room:
         centres = points(np.array([(loop.x_mm, loop.y_mm) for loop in layout.loops]))
         self._tree = STRtree(np.asarray(centres, dtype=np.object_))
         self._tails: list[LineString] = []
+        self._ends: list[LineString] = []
 
     def holds(self, place: Exit, own: Indices) -> bool:
         """Whether both tails are clear of loops and tails."""
@@ -105,16 +116,30 @@ class _Room:
             self._clear_of_loops(tail, place.loop, own)
             and all(tail.distance(other) >= TAIL_CLEAR_MM for other in self._tails)
             for tail in self._lines(place)
+        ) and all(
+            end.distance(other) >= CRIMP_APART_MM
+            for end in self._free_ends(place)
+            for other in self._ends
         )
 
     def take(self, place: Exit) -> None:
         """Lay both tails."""
         self._tails.extend(self._lines(place))
+        self._ends.extend(self._free_ends(place))
 
     def _lines(self, place: Exit) -> list[LineString]:
         loop = self._layout.loops[place.loop]
         both = tail_pieces(loop, place.angle_rad, self._tail_length_mm, place.bend_mm)
         return [WirePath(pieces).line_string(_CHORD_MM) for pieces in both]
+
+    def _free_ends(self, place: Exit) -> list[LineString]:
+        """The parts of both tails that no stitch holds: the first of one, the last of the other."""
+        comes, goes = self._lines(place)
+        free = min(FREE_TAIL_MM, self._tail_length_mm)
+        return [
+            substring(comes, 0.0, free),
+            substring(goes, goes.length - free, goes.length),
+        ]
 
     def _clear_of_loops(self, tail: LineString, start: int, own: Indices) -> bool:
         reach = self._clear_mm + _CHORD_MM + self._longest_mm

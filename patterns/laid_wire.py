@@ -6,13 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
-from patterns.path import Line, Piece, Vectors, WirePath
-
-SEARCH_TOLERANCE_MM = 0.05
-"""Chords with which pieces are looked up; distances are then taken from the true pieces."""
+from patterns.path import Piece, Vectors, WirePath
+from patterns.piece_cells import PieceCells
 
 Lengths = NDArray[np.float64]
 
@@ -23,24 +20,18 @@ class LaidWire:
 
     Attributes
     ----------
-    tree : shapely.STRtree
-        The pieces, as polylines within `SEARCH_TOLERANCE_MM`.
-    is_arc : array of bool (n,)
-        Whether a piece is an arc.
-    shape : array (n, 5)
-        Of an arc centre x, y, radius, start angle, sweep (mm, rad); of a line zeros.
-    ends : array (n, 2, 2)
-        First and last point of the pieces.
+    pieces : tuple of Line or Arc
+        The n pieces of all the wire.
+    cells : PieceCells
+        The same, to be looked up.
     radius_mm : array (n,)
         Half the diameter of the wire of each piece.
     like_mm : float
         Distances are as if to wire of this radius: a thicker wire is nearer by the difference.
     """
 
-    tree: shapely.STRtree
-    is_arc: NDArray[np.bool_]
-    shape: Vectors
-    ends: Vectors
+    pieces: tuple[Piece, ...]
+    cells: PieceCells
     radius_mm: Lengths
     like_mm: float = 0.0
 
@@ -51,16 +42,9 @@ class LaidWire:
     def distance_mm(self, points_mm: Vectors, reach_mm: float) -> Lengths:
         """Distance (n,) from points (n, 2) to the nearest centreline; infinite beyond the reach."""
         thicker = self.radius_mm - self.like_mm
-        reach = reach_mm + max(float(thicker.max(initial=0.0)), 0.0) + SEARCH_TOLERANCE_MM
-        which, piece = self.tree.query(
-            shapely.points(points_mm), predicate="dwithin", distance=reach
-        )
-        arc = self.is_arc[piece]
-        exact = np.empty(len(which))
-        point, shape, ends = points_mm[which], self.shape[piece], self.ends[piece]
-        exact[arc] = _to_arcs(point[arc], shape[arc], ends[arc])
-        exact[~arc] = _to_lines(point[~arc], ends[~arc])
-        exact -= thicker[piece]
+        reach = reach_mm + max(float(thicker.max(initial=0.0)), 0.0)
+        which, piece = self.cells.near(points_mm, reach)
+        exact = self.cells.distance_mm(points_mm[which], piece) - thicker[piece]
         nearest = np.full(len(points_mm), np.inf)
         np.minimum.at(nearest, which, exact)
         nearest[nearest > reach_mm] = np.inf
@@ -69,58 +53,21 @@ class LaidWire:
 
 def laid_wire(*paths: WirePath, wire_diameter_mm: float = 0.0) -> LaidWire:
     """Make paths of one wire ready for `LaidWire.distance_mm`, measured to its centreline."""
-    pieces = [piece for path in paths for piece in path.pieces]
-    outlines = [WirePath((piece,)).line_string(SEARCH_TOLERANCE_MM) for piece in pieces]
+    pieces = tuple(piece for path in paths for piece in path.pieces)
     return LaidWire(
-        shapely.STRtree(outlines),
-        np.array([not isinstance(piece, Line) for piece in pieces]),
-        np.array([_shape(piece) for piece in pieces]),
-        np.array([[outline.coords[0], outline.coords[-1]] for outline in outlines]),
+        pieces,
+        PieceCells(pieces),
         np.full(len(pieces), wire_diameter_mm / 2),
         wire_diameter_mm / 2,
     )
 
 
 def all_laid(parts: Sequence[LaidWire]) -> LaidWire:
-    """Put wires that are ready together, without making them ready again.
-
-    Distances are measured as for the last of them.
-    """
+    """Put wires together; distances are measured as for the last of them."""
+    pieces = tuple(piece for part in parts for piece in part.pieces)
     return LaidWire(
-        shapely.STRtree(np.concatenate([part.tree.geometries for part in parts])),
-        np.concatenate([part.is_arc for part in parts]),
-        np.concatenate([part.shape for part in parts]),
-        np.concatenate([part.ends for part in parts]),
+        pieces,
+        PieceCells(pieces),
         np.concatenate([part.radius_mm for part in parts]),
         parts[-1].like_mm,
     )
-
-
-def _shape(piece: Piece) -> tuple[float, float, float, float, float]:
-    if isinstance(piece, Line):
-        return 0.0, 0.0, 0.0, 0.0, 0.0
-    return (
-        piece.centre_x_mm,
-        piece.centre_y_mm,
-        piece.radius_mm,
-        piece.start_rad,
-        piece.sweep_rad,
-    )
-
-
-def _to_lines(point: Vectors, ends: Vectors) -> Lengths:
-    """Give the distance of points to line segments, pair by pair."""
-    start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
-    part = ((point - start) * along).sum(axis=1) / (along**2).sum(axis=1)
-    return np.hypot(*(point - start - np.clip(part, 0.0, 1.0)[:, None] * along).T)
-
-
-def _to_arcs(point: Vectors, shape: Vectors, ends: Vectors) -> Lengths:
-    """Give the distance of points to arcs, pair by pair."""
-    x, y = (point - shape[:, :2]).T
-    radius, start, sweep = shape[:, 2:].T
-    turn = np.mod(np.sign(sweep) * (np.arctan2(y, x) - start), 2 * np.pi)
-    to_circle = np.abs(np.hypot(x, y) - radius)
-    away = point[:, None] - ends
-    to_ends = np.hypot(away[..., 0], away[..., 1]).min(axis=1)
-    return np.where(turn <= np.abs(sweep), to_circle, to_ends)

@@ -7,18 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, points
-from shapely import distance as distance_between
 
 from patterns.plan import UNITS_PER_MM, BlockKind, StitchPlan
-from patterns.sewn_wire import STEP_MM, Strand, crossing_share, segments
+from patterns.sewn_pieces import APART_MM, SewnPieces
+from patterns.sewn_wire import STEP_MM, Strand
 from patterns.stitching import ROUNDING_MM
 
 REBUILT_MM = 2 * ROUNDING_MM
 """How far off the distance of two rebuilt wires may be."""
-
-APART_MM = 4.0
-"""Places nearer to one another along one wire than this are one stretch of it."""
 
 _BARE_MM = 0.5 * STEP_MM
 
@@ -51,16 +47,6 @@ class Meeting:
     insulated: bool
 
 
-@dataclass(frozen=True)
-class _Laid:
-    """The straight pieces of all strands together."""
-
-    tree: STRtree
-    strand: Indices
-    begin_mm: Numbers
-    size_mm: Numbers
-
-
 def meetings(
     strands: tuple[Strand, ...],
     diameter_mm: Mapping[int, float],
@@ -79,13 +65,13 @@ def meetings(
     """
     if not strands:
         return ()
-    laid = _laid(strands)
+    laid = SewnPieces([strand.points_mm for strand in strands])
     cover = _satin(plan, laid, strands)
+    pairs = _pairs(strands, laid, diameter_mm, followed)
     found: list[Meeting] = []
     for over, strand in enumerate(strands):
-        pairs = _pairs(strands, over, laid, diameter_mm, followed)
-        for under in np.unique(pairs.strand).tolist():
-            own = pairs.of(under)
+        for under in np.unique(pairs.under[pairs.over == over]).tolist():
+            own = pairs.of(over, under)
             sewn = cover[under][1]
             between = (sewn > strands[under].block) & (sewn < strand.block)
             crossed = np.sort(cover[under][0][between])
@@ -96,71 +82,64 @@ def meetings(
     return tuple(found)
 
 
-def _laid(strands: tuple[Strand, ...]) -> _Laid:
-    pieces = [strand.segments() for strand in strands]
-    return _Laid(
-        STRtree(np.concatenate(pieces)),
-        np.repeat(np.arange(len(strands)), [len(own) for own in pieces]),
-        np.concatenate([strand.station_mm[:-1] for strand in strands]),
-        np.concatenate([np.diff(strand.station_mm) for strand in strands]),
-    )
-
-
 @dataclass(frozen=True)
 class _Pairs:
-    """Places on one strand (over) with the places on others (under) near them."""
+    """Places on one strand (over) with the places on earlier wire (under) near them."""
 
-    strand: Indices
+    over: Indices
+    under: Indices
     over_mm: Numbers
     under_mm: Numbers
 
-    def of(self, under: int) -> _Pairs:
-        """Those with one strand."""
-        own = self.strand == under
-        return _Pairs(self.strand[own], self.over_mm[own], self.under_mm[own])
+    def among(self, which: Indices | NDArray[np.bool_]) -> _Pairs:
+        """Some of them, or in another order."""
+        return _Pairs(
+            self.over[which], self.under[which], self.over_mm[which], self.under_mm[which]
+        )
+
+    def of(self, over: int, under: int) -> _Pairs:
+        """Those of two strands."""
+        return self.among((self.over == over) & (self.under == under))
 
 
 def _pairs(
     strands: tuple[Strand, ...],
-    over: int,
-    laid: _Laid,
+    laid: SewnPieces,
     diameter_mm: Mapping[int, float],
     followed: Mapping[int, int],
 ) -> _Pairs:
-    """Pair the points of a strand with pieces of it and of earlier strands that they touch."""
-    strand = strands[over]
+    """Pair the points of strands with pieces of earlier wire, their own included, they touch.
+
+    Every point starts a piece, but for the last of a strand, which is half a millimetre from one.
+    """
     diameter = np.array([diameter_mm[one.block] for one in strands])
-    reach = (diameter + diameter[over]) / 2 + REBUILT_MM
-    places = np.asarray(points(strand.points_mm), dtype=np.object_)
-    point, piece = laid.tree.query(places, predicate="dwithin", distance=float(reach.max()))
-    earlier = laid.strand[piece] <= over
-    point, piece = point[earlier], piece[earlier]
-    under = laid.strand[piece]
-    on = strand.station_mm[point]
-    at = laid.begin_mm[piece] + laid.size_mm[piece] / 2
-    near = _distance(places[point], laid.tree.geometries[piece]) <= reach[under]
-    before = followed.get(strand.block)
-    lengths = np.array([one.station_mm[-1] for one in strands])
-    joined = np.array([one.block == before for one in strands])[under]
-    along = np.where(
-        under == over, np.abs(on - at), np.where(joined, on + lengths[under] - at, np.inf)
-    )
-    kept = near & (along > APART_MM) & ((under != over) | (at < on))
-    return _Pairs(under[kept], on[kept], at[kept])
+    widest = float(diameter.max()) + REBUILT_MM
+    later, earlier = laid.near_one_another(widest)
+    over, under = laid.row[later], laid.row[earlier]
+    pairs = _Pairs(over, under, laid.begin_mm[later], laid.middle_mm[earlier])
+    reach = (diameter[over] + diameter[under]) / 2 + REBUILT_MM
+    near = laid.to_pieces_mm(laid.start_mm[later], earlier) <= reach
+    return pairs.among(near & (_along_mm(pairs, strands, followed) > APART_MM))
 
 
-def _distance(a: NDArray[np.object_], b: NDArray[np.object_]) -> Numbers:
-
-    return np.asarray(distance_between(a, b), dtype=np.float64)
+def _along_mm(pairs: _Pairs, strands: tuple[Strand, ...], followed: Mapping[int, int]) -> Numbers:
+    """How far apart places are along their wire; infinite on two wires."""
+    index = {strand.block: k for k, strand in enumerate(strands)}
+    before = np.array([index.get(followed.get(strand.block, -1), -1) for strand in strands])
+    length = np.array([strand.station_mm[-1] for strand in strands])
+    same, joined = pairs.under == pairs.over, pairs.under == before[pairs.over]
+    through = pairs.over_mm + length[pairs.under] - pairs.under_mm
+    own = np.abs(pairs.over_mm - pairs.under_mm)
+    return np.where(same, own, np.where(joined, through, np.inf))
 
 
 def _stretches(pairs: _Pairs) -> Iterator[_Pairs]:
     """Cut pairs where they jump along either wire."""
     order = np.argsort(pairs.over_mm, kind="stable")
-    ordered = _Pairs(pairs.strand[order], pairs.over_mm[order], pairs.under_mm[order])
+    ordered = pairs.among(order)
     jump = (np.diff(ordered.over_mm) > 2 * STEP_MM) | (np.abs(np.diff(ordered.under_mm)) > APART_MM)
     for own in np.split(np.arange(len(order)), np.flatnonzero(jump) + 1):
-        yield _Pairs(ordered.strand[own], ordered.over_mm[own], ordered.under_mm[own])
+        yield ordered.among(own)
 
 
 def _meeting(
@@ -195,7 +174,7 @@ def _longest_bare(
 
 
 def _satin(
-    plan: StitchPlan, laid: _Laid, strands: tuple[Strand, ...]
+    plan: StitchPlan, laid: SewnPieces, strands: tuple[Strand, ...]
 ) -> list[tuple[Numbers, Indices]]:
     """For each strand where cover stitches cross it, and the blocks of those stitches."""
     stations: list[list[Numbers]] = [[np.empty(0)] for _ in strands]
@@ -203,13 +182,13 @@ def _satin(
     for k, block in enumerate(plan.blocks):
         if block.kind is not BlockKind.COVER:
             continue
-        runs = [segments(run.needles / UNITS_PER_MM) for run in block.runs]
-        stitches = np.concatenate([np.empty(0, dtype=np.object_), *runs])
-        stitch, piece = laid.tree.query(stitches, predicate="intersects")
-        share = crossing_share(laid.tree.geometries[piece], stitches[stitch])
+        runs = [run.needles / UNITS_PER_MM for run in block.runs]
+        start = np.concatenate([np.empty((0, 2)), *(run[:-1] for run in runs)])
+        end = np.concatenate([np.empty((0, 2)), *(run[1:] for run in runs)])
+        _, piece, share = laid.crossed(start, end)
         at = laid.begin_mm[piece] + share * laid.size_mm[piece]
-        for strand in np.unique(laid.strand[piece]).tolist():
-            own = at[laid.strand[piece] == strand]
+        for strand in np.unique(laid.row[piece]).tolist():
+            own = at[laid.row[piece] == strand]
             stations[strand].append(own)
             blocks[strand].append(np.full(len(own), k))
     return [(np.concatenate(s), np.concatenate(b)) for s, b in zip(stations, blocks, strict=True)]

@@ -9,12 +9,12 @@ from itertools import combinations, pairwise
 
 import networkx as nx
 import numpy as np
-from shapely import STRtree
 
 from patterns.couching import FREE_TAIL_MM
 from patterns.kirchhoff import effective_resistance_ohm
 from patterns.meetings import Meeting, meetings
 from patterns.plan import UNITS_PER_MM, StitchPlan
+from patterns.sewn_pieces import SewnPieces
 from patterns.sewn_wire import Strand, sewn_strand
 
 JOIN_MM = 1.0
@@ -128,12 +128,11 @@ def sewn_net(plan: StitchPlan, kinds: tuple[Kind, ...], largest_gap_mm: float) -
         Cover stitches farther apart along the wire than this insulate nothing between them.
     """
     strands: list[Strand] = []
-    laid = [np.empty(0, dtype=np.object_)]
     for k, block in enumerate(plan.blocks):
         if block.kind.is_wire and block.runs:
             needles = np.concatenate([run.needles for run in block.runs]) / UNITS_PER_MM
-            strands.append(sewn_strand(k, needles, STRtree(np.concatenate(laid))))
-            laid.append(strands[-1].segments())
+            earlier = SewnPieces([strand.points_mm for strand in strands])
+            strands.append(sewn_strand(k, needles, earlier))
     wires = _joined(strands)
     own = tuple(kinds[min(k, len(kinds) - 1)] for k in range(len(wires)))
     diameter = {

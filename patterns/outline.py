@@ -10,9 +10,13 @@ from shapely import (
     MultiPolygon,
     Polygon,
     STRtree,
+    buffer,
+    contains_properly,
+    covers,
     get_parts,
     maximum_inscribed_circle,
     polygonize,
+    prepare,
     union_all,
 )
 from shapely.geometry.base import BaseGeometry
@@ -71,10 +75,13 @@ class Outline:
     def fabric(self) -> MultiPolygon:
         """Give the fabric that is left, a polygon a piece."""
         pieces = [Polygon(ring) for ring in self.outsides]
-        openings = [Polygon(ring) for ring in self.openings]
+        openings = np.array([Polygon(ring) for ring in self.openings], dtype=np.object_)
+        prepare(pieces)
         return MultiPolygon(
             [
-                Polygon(piece.exterior, [hole.exterior for hole in openings if piece.covers(hole)])
+                Polygon(
+                    piece.exterior, [hole.exterior for hole in openings[covers(piece, openings)]]
+                )
                 for piece in pieces
             ]
         )
@@ -152,13 +159,32 @@ def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> l
         *(Polygon(ring_around(loop, grown)) for loop in circuit.layout.loops),
         *(_grown(piece, grown) for piece in _tail_pieces(circuit)),
     ]
-    fabric: BaseGeometry = union_all(parts)
+    fabric = get_parts(union_all(parts)).tolist()
     if corner_radius_mm > 0:
-        fabric = fabric.buffer(-corner_radius_mm, quad_segs=quarter_steps(corner_radius_mm))
-    pieces = [piece for piece in get_parts(fabric).tolist() if not piece.is_empty]
+        shrunk = [_shrunk(piece, corner_radius_mm) for piece in fabric]
+        fabric = [part for piece in shrunk for part in get_parts(piece).tolist()]
+    pieces = [piece for piece in fabric if not piece.is_empty]
     if not 0 < len(pieces) <= len(circuit.parts):
         raise PatternError("the fabric falls apart: the wire does not hold all loops together")
     return sorted(pieces, key=lambda piece: piece.bounds)
+
+
+def _shrunk(fabric: Polygon, by_mm: float) -> BaseGeometry:
+    """Take a strip off a piece of fabric: off its outside, and around each opening by itself.
+
+    At once is the same, but takes much longer where there are many openings; it is done when they
+    would run into one another or into the outside.
+    """
+    steps = quarter_steps(by_mm)
+    outside = Polygon(fabric.exterior).buffer(-by_mm, quad_segs=steps)
+    openings = buffer([Polygon(ring) for ring in fabric.interiors], by_mm, quad_segs=steps)
+    if isinstance(outside, Polygon) and not outside.is_empty:
+        prepare(outside)
+        first, _ = STRtree(openings).query(openings, predicate="intersects")
+        whole = all(not one.interiors for one in openings)
+        if len(first) == len(openings) and whole and contains_properly(outside, openings).all():
+            return Polygon(outside.exterior, [one.exterior for one in openings])
+    return fabric.buffer(-by_mm, quad_segs=steps)
 
 
 def _tail_pieces(circuit: Circuit) -> list[Piece]:

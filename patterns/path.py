@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -70,46 +70,64 @@ class Arc:
 Piece = Line | Arc
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class WirePath:
     """Pieces laid end to end."""
 
     pieces: tuple[Piece, ...]
 
-    @property
+    @cached_property
     def length_mm(self) -> float:
         """Length along the wire."""
         return sum(piece.length_mm for piece in self.pieces)
 
-    @property
+    @cached_property
     def smallest_radius_mm(self) -> float:
         """Smallest bend radius; infinite for a straight path."""
         largest = max(abs(piece.curvature_per_mm) for piece in self.pieces)
         return 1 / largest if largest > 0 else float("inf")
 
+    @cached_property
+    def _ends_mm(self) -> Vectors:
+        """Arclength (n,) at the end of each piece."""
+        return np.cumsum([piece.length_mm for piece in self.pieces])
+
+    @cached_property
+    def _bends(self) -> Vectors:
+        """Of each piece (n, 7) anchor x, y, first angle, curvature, length and direction x, y.
+
+        Of an arc the anchor is the centre, from which its first point is seen at that angle; of a
+        line it is the start. An arc has no direction, a line no angle.
+        """
+        return np.array([_bend(piece) for piece in self.pieces])
+
     def at(self, s_mm: ArrayLike) -> tuple[Vectors, Vectors]:
         """Points and unit tangents, each (n, 2), at ``s_mm`` (n,) along the path or at its ends."""
         s = np.clip(np.atleast_1d(np.asarray(s_mm, dtype=float)), 0.0, self.length_mm)
-        ends = np.cumsum([piece.length_mm for piece in self.pieces])
-        which = np.minimum(np.searchsorted(ends, s, side="left"), len(self.pieces) - 1)
-        point, tangent = np.empty((len(s), 2)), np.empty((len(s), 2))
-        order = np.argsort(which, kind="stable")
-        found, begin = np.unique(which[order], return_index=True)
-        for k, here in zip(found, np.split(order, begin[1:]), strict=False):
-            start = ends[k] - self.pieces[k].length_mm
-            point[here], tangent[here] = self.pieces[k].at(s[here] - start)
-        return point, tangent
+        which = np.searchsorted(self._ends_mm, s, side="left")
+        which = np.minimum(which, len(self.pieces) - 1)
+        return self._on_pieces(which, s - (self._ends_mm[which] - self._bends[which, 4]))
+
+    def _on_pieces(self, which: NDArray[np.int64], along: Vectors) -> tuple[Vectors, Vectors]:
+        """Points and unit tangents at lengths along pieces."""
+        x, y, first, curvature, _, ahead_x, ahead_y = self._bends[which].T
+        angle = first + along * curvature
+        bent, turn = curvature != 0, np.sign(curvature)
+        ray_x, ray_y = (
+            np.where(bent, np.cos(angle), ahead_x),
+            np.where(bent, np.sin(angle), ahead_y),
+        )
+        reach = np.where(bent, 1 / np.where(bent, np.abs(curvature), 1.0), along)
+        point = np.stack([x + reach * ray_x, y + reach * ray_y], axis=1)
+        across = np.stack([-turn * ray_y, turn * ray_x], axis=1)
+        return point, np.where(bent[:, None], across, np.stack([ray_x, ray_y], axis=1))
 
     def joints(self) -> tuple[Vectors, Vectors]:
         """Jump of position (mm) and of tangent between pieces, each (n - 1,); 0 when smooth."""
-        gaps: list[float] = []
-        kinks: list[float] = []
-        for before, after in pairwise(self.pieces):
-            p, t = before.at(np.array([before.length_mm]))
-            q, u = after.at(np.array([0.0]))
-            gaps.append(float(np.hypot(*(p - q)[0])))
-            kinks.append(float(np.hypot(*(t - u)[0])))
-        return np.array(gaps), np.array(kinks)
+        index = np.arange(len(self.pieces))
+        ends, leaves = self._on_pieces(index[:-1], self._bends[:-1, 4])
+        starts, sets_out = self._on_pieces(index[1:], np.zeros(len(index) - 1))
+        return np.hypot(*(ends - starts).T), np.hypot(*(leaves - sets_out).T)
 
     def polyline(self, tolerance_mm: float = 0.005) -> Vectors:
         """Points (n, 2) of a polyline whose chords stay within ``tolerance_mm`` of the path."""
@@ -126,3 +144,11 @@ class WirePath:
     def line_string(self, tolerance_mm: float = 0.005) -> LineString:
         """Give the path as a shapely line, to within ``tolerance_mm``."""
         return LineString(self.polyline(tolerance_mm))
+
+
+def _bend(piece: Piece) -> tuple[float, ...]:
+    if isinstance(piece, Arc):
+        centre = piece.centre_x_mm, piece.centre_y_mm
+        return *centre, piece.start_rad, piece.curvature_per_mm, piece.length_mm, 0.0, 0.0
+    (start,), (ahead,) = piece.at(np.zeros(1))
+    return *start.tolist(), 0.0, 0.0, piece.length_mm, *ahead.tolist()

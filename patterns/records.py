@@ -26,7 +26,7 @@ class Command(StrEnum):
     END = "end"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Records:
     """Everything the machine does, starting at (0, 0).
 
@@ -40,6 +40,10 @@ class Records:
 
     command: NDArray[np.str_]
     xy: Points
+
+    def same_as(self, other: Records) -> bool:
+        """Whether the machine does the same, record by record."""
+        return np.array_equal(self.command, other.command) and np.array_equal(self.xy, other.xy)
 
 
 def plan_records(plan: StitchPlan, machine: Machine) -> Records:

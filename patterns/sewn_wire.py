@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, get_coordinates, linestrings, points
 
 from patterns.locks import POINTS_PER_LOCK
 from patterns.path import Vectors
+from patterns.sewn_pieces import SewnPieces
 from patterns.stitching import ROUNDING_MM
 
 STEP_MM = 0.5
@@ -52,18 +52,8 @@ class Strand:
     points_mm: Vectors
     station_mm: Numbers
 
-    def segments(self) -> NDArray[np.object_]:
-        """Straight pieces (n - 1,) from point to point, as shapely lines."""
-        return segments(self.points_mm)
 
-
-def segments(points_mm: Vectors) -> NDArray[np.object_]:
-    """Straight pieces (n - 1,) of a row of points (n, 2), as shapely lines."""
-    ends = np.stack([points_mm[:-1], points_mm[1:]], axis=1)
-    return np.asarray(linestrings(ends), dtype=np.object_)
-
-
-def sewn_strand(block: int, needles_mm: Vectors, earlier: STRtree) -> Strand:
+def sewn_strand(block: int, needles_mm: Vectors, earlier: SewnPieces) -> Strand:
     """Rebuild the centreline between the needle points of a couching.
 
     The needle goes in on both sides of the wire in turn, as far from it on the one as on the other
@@ -76,7 +66,7 @@ def sewn_strand(block: int, needles_mm: Vectors, earlier: STRtree) -> Strand:
     needles_mm
         Needle points (n, 2) in the order of sewing, locks included.
     earlier
-        Straight pieces of the wire that was laid before.
+        The wire that was laid before.
     """
     locked = len(needles_mm) >= _FEWEST
     row = needles_mm[POINTS_PER_LOCK:-POINTS_PER_LOCK] if locked else needles_mm
@@ -104,44 +94,22 @@ def _zigzags(row: Vectors) -> bool:
     return len(turn) < 2 or (wide and float(np.mean(turn[:-1] * turn[1:] < 0)) > 0.5)
 
 
-def _reaching_over(needles: Vectors, earlier: STRtree) -> Flags:
+def _reaching_over(needles: Vectors, earlier: SewnPieces) -> Flags:
     """Which needle points may lie beyond earlier wire.
 
     Of a stitch across such wire that end does which is nearer to it, for there it keeps the
     clearance; both may when rounding leaves it open.
     """
     beyond = np.zeros(len(needles), dtype=np.bool_)
-    stitch = np.unique(earlier.query(segments(needles), predicate="intersects")[0])
+    stitch = np.unique(earlier.crossed(needles[:-1], needles[1:])[0])
     if stitch.size:
-        away = _distances(needles, np.union1d(stitch, stitch + 1), earlier)
-        begin, end = away[stitch], away[stitch + 1]
+        ends = np.stack([needles[stitch], needles[stitch + 1]])
+        longest = float(np.hypot(*(ends[1] - ends[0]).T).max())
+        begin, end = (earlier.distance_mm(one, longest) for one in ends)
         beyond[stitch[begin < end + _OPEN_MM]] = True
         beyond[stitch[end < begin + _OPEN_MM] + 1] = True
     beyond[[0, -1]] = False  # where the strand begins and ends is known only from these
     return beyond
-
-
-def _distances(needles: Vectors, which: NDArray[np.int64], tree: STRtree) -> Numbers:
-    """Distance of some needle points to the pieces in a tree; of the others infinite."""
-    places = np.asarray(points(needles[which]), dtype=np.object_)
-    pairs, distance = tree.query_nearest(places, return_distance=True, all_matches=False)
-    result = np.full(len(needles), np.inf)
-    result[which[pairs[0]]] = distance
-    return result
-
-
-def crossing_share(lines: NDArray[np.object_], others: NDArray[np.object_]) -> Numbers:
-    """Share of the way along each line at which another one crosses it, pair by pair."""
-    (a, b), (c, d) = _ends(lines), _ends(others)
-    across = _cross(b - a, d - c)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = _cross(c - a, d - c) / across
-    return np.clip(np.where(across == 0, 0.5, share), 0.0, 1.0)
-
-
-def _ends(lines: NDArray[np.object_]) -> tuple[Vectors, Vectors]:
-    ends = get_coordinates(lines).reshape(-1, 2, 2)
-    return ends[:, 0], ends[:, 1]
 
 
 def _centreline(needles: Vectors, sound: Flags) -> Vectors:

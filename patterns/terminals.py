@@ -13,6 +13,10 @@ from patterns.loop import Loop
 TAIL_CLEAR_MM = 2.0
 """Least distance of the tails from all other loops: room for the stitches of both wires."""
 
+CRIMP_APART_MM = 5.0
+"""Least distance between the ends of two wires that no stitch holds: a crimped tube and the fingers
+that hold it need the room. A default of the workshop, not a published figure."""
+
 DIRECTIONS = 72
 LEAST_ALIGNMENT = 0.5 - 1e-9
 """Cosine of the largest angle between a side and the direction in which the terminals face."""

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, box, points
 
-from patterns.path import Arc, Line, Piece, Vectors, WirePath
+from patterns.cell_table import Indices, counted
+from patterns.path import Line, Piece, Vectors, WirePath
+from patterns.piece_cells import PieceCells
 
 Numbers = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class Nearest:
 
 
 class WireIndex:
-    """The pieces of a path as arrays, with a tree over their bounding boxes.
+    """The pieces of a path as arrays, with the cells they pass through.
 
     Parameters
     ----------
@@ -59,7 +60,7 @@ class WireIndex:
         self._curvature = np.array([piece.curvature_per_mm for piece in path.pieces])
         rows = np.array([_numbers(piece) for piece in path.pieces])
         self._anchor, self._angle = rows[:, :2], rows[:, 2]
-        self._tree = STRtree(box(*np.array([_bounds(piece) for piece in path.pieces]).T))
+        self._cells = PieceCells(path.pieces)
 
     def at(self, s_mm: Numbers) -> Vectors:
         """Give the points (n, 2) at arclengths ``s_mm`` (n,)."""
@@ -67,16 +68,41 @@ class WireIndex:
         point, _ = self._places(piece, s_mm - self._start[piece])
         return point
 
-    def pairs(self, where: NDArray[np.object_], reach_mm: float) -> tuple[Indices, Indices]:
-        """Pair geometries with the pieces whose bounding boxes come within ``reach_mm``.
+    def pairs(self, start_mm: Vectors, end_mm: Vectors, reach_mm: float) -> tuple[Indices, Indices]:
+        """Pair straight edges with all pieces within ``reach_mm``, and some that are farther off.
+
+        Parameters
+        ----------
+        start_mm, end_mm : array (n, 2)
+            Ends of the edges.
 
         Returns
         -------
-        geometry, piece : arrays (m,)
-            Indices of the pairs.
+        edge, piece : arrays (m,)
+            Indices of the pairs; of long edges some stand there twice.
         """
-        found = self._tree.query(where, predicate="dwithin", distance=reach_mm)
-        return found[0].astype(np.int64), found[1].astype(np.int64)
+        length = np.hypot(*(end_mm - start_mm).T)
+        count = np.maximum(np.ceil(length / reach_mm).astype(np.int64), 1)
+        edge, rank = counted(count)
+        share = ((rank + 0.5) / count[edge])[:, None]
+        places = start_mm[edge] + share * (end_mm - start_mm)[edge]
+        which, piece = self._cells.near(places, 1.5 * reach_mm)
+        return edge[which], piece
+
+    @cached_property
+    def targets_mm(self) -> Vectors:
+        """Of each piece (n, 3, 2) the ends and, of an arc, the centre.
+
+        The place on a straight edge that is nearest to a piece it does not cross is an end of the
+        edge or the foot of one of these.
+        """
+        ends = self._cells.ends_mm
+        third = np.where(self._curvature[:, None] != 0, self._anchor, ends[:, 0])
+        return np.concatenate([ends, third[:, None]], axis=1)
+
+    def distance_mm(self, points_mm: Vectors, piece: Indices) -> Numbers:
+        """Distance (m,) of point i (m, 2) from its piece i (m,)."""
+        return self._cells.distance_mm(points_mm, piece)
 
     def nearest(
         self,
@@ -99,14 +125,20 @@ class WireIndex:
         among : array of bool (pieces,), optional
             Pieces that are looked at.
         """
-        which, _, (distance, station, side) = self._eligible(points_mm, reach_mm, away_from, among)
-        order = np.lexsort((distance, which))
-        found, first = np.unique(which[order], return_index=True)
-        best = order[first]
+        which, piece, distance = self._eligible(points_mm, reach_mm, away_from, among)
         result = Nearest(*(np.full(len(points_mm), fill) for fill in (np.inf, np.nan, np.nan)))
+        if not len(which):
+            return result
+        first = np.flatnonzero(np.diff(which, prepend=-1))
+        least = np.repeat(
+            np.minimum.reduceat(distance, first), np.diff(np.append(first, len(which)))
+        )
+        best = np.flatnonzero(distance == least)
+        best = best[np.diff(which[best], prepend=-1) != 0]
+        found, piece = which[best], piece[best]
         result.distance_mm[found] = distance[best]
-        result.station_mm[found] = station[best]
-        result.side_mm[found] = side[best]
+        _, along, result.side_mm[found] = self.to_pieces(points_mm[found], piece)
+        result.station_mm[found] = along + self._start[piece]
         return result
 
     def within(
@@ -132,18 +164,19 @@ class WireIndex:
         reach_mm: float,
         away_from: tuple[Numbers, float] | None,
         among: NDArray[np.bool_] | None,
-    ) -> tuple[Indices, Indices, tuple[Numbers, Numbers, Numbers]]:
-        """Pairs of points and pieces, with distance, station and signed offset."""
-        which, piece = self.pairs(np.asarray(points(points_mm), dtype=np.object_), reach_mm)
+    ) -> tuple[Indices, Indices, Numbers]:
+        """Pairs of points, in order, and pieces; with distance."""
+        which, piece = self._cells.near(points_mm, reach_mm)
         if among is not None:
             which, piece = which[among[piece]], piece[among[piece]]
-        distance, along, side = self.to_pieces(points_mm[which], piece)
-        station = along + self._start[piece]
+        distance = self.distance_mm(points_mm[which], piece)
         eligible = distance <= reach_mm
-        if away_from is not None:
-            eligible &= np.abs(station - away_from[0][which]) > away_from[1]
-        measures = (distance[eligible], station[eligible], side[eligible])
-        return which[eligible], piece[eligible], measures
+        which, piece, distance = which[eligible], piece[eligible], distance[eligible]
+        if away_from is None:
+            return which, piece, distance
+        _, along, _ = self.to_pieces(points_mm[which], piece)
+        apart = np.abs(along + self._start[piece] - away_from[0][which]) > away_from[1]
+        return which[apart], piece[apart], distance[apart]
 
     def to_pieces(self, points_mm: Vectors, piece: Indices) -> tuple[Numbers, Numbers, Numbers]:
         """Distance, arclength within the piece and signed offset of point i from its piece i."""
@@ -188,12 +221,3 @@ def _numbers(piece: Piece) -> tuple[float, float, float]:
         direction = np.arctan2(piece.y1_mm - piece.y0_mm, piece.x1_mm - piece.x0_mm)
         return piece.x0_mm, piece.y0_mm, float(direction)
     return piece.centre_x_mm, piece.centre_y_mm, piece.start_rad
-
-
-def _bounds(piece: Piece, samples: int = 33) -> Numbers:
-    """Box (xmin, ymin, xmax, ymax) around a piece, at most a sagitta too large."""
-    point, _ = piece.at(np.linspace(0.0, piece.length_mm, samples))
-    sagitta = 0.0
-    if isinstance(piece, Arc):
-        sagitta = piece.radius_mm * (1 - np.cos(abs(piece.sweep_rad) / (samples - 1) / 2))
-    return np.concatenate([point.min(axis=0) - sagitta, point.max(axis=0) + sagitta])

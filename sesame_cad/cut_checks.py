@@ -31,13 +31,15 @@ def cut_faults(content: bytes, kind: str, made: Design) -> Iterator[str]:
     except DesignFileError as error:
         yield str(error)
         return
-    yield from _outline_faults(outline, laid.outline)
+    faults = [*_outline_faults(outline, laid.outline)]
+    yield from faults
     expected = [stroke for mark in laid.marks for stroke in mark.strokes]
     if not _same_lines(strokes, expected):
         yield "the registration marks are not those of the stitch file"
-    margin = spec.outline.margin_mm - OUTLINE_TOLERANCE_MM
-    violations = check_outline(outline, laid.circuit, spec.diameters_mm, margin, laid.plan)
-    yield from map(str, violations)
+    if faults:  # the designed outline keeps every rule, and so does one that is the same
+        margin = spec.outline.margin_mm - OUTLINE_TOLERANCE_MM
+        violations = check_outline(outline, laid.circuit, spec.diameters_mm, margin, laid.plan)
+        yield from map(str, violations)
 
 
 def _outline_faults(outline: Outline, expected: Outline) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from patterns.circuit import Crossing, CrossingKind
+from patterns.circuit import CrossingKind
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import Command, Records
 from sesame_cad.answer_data import answer_data, solve_account
@@ -17,7 +17,7 @@ from sesame_cad.electrics_data import (
 )
 from sesame_cad.files.stitch_formats import LOSSES
 from sesame_cad.omitted_data import omitted_data
-from sesame_cad.pipeline import Design, Pattern, covered_crossings, extent_mm
+from sesame_cad.pipeline import Design, Pattern, extent_mm
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.specification.machine import MachineSection
@@ -48,7 +48,6 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         Size and hash of each file by its path in the design's folder.
     """
     spec = design.spec
-    covered = covered_crossings(spec, design.pattern)
     return {
         "format": FORMAT_VERSION,
         "name": spec.name,
@@ -56,8 +55,8 @@ def design_data(design: Design, records: Records, files: dict[str, Data]) -> Dat
         "poisson": spec.fabric.poisson,
         "reading": spec.model.reading,
         **_shape_data(design),
-        "circuit": circuit_data(spec, design.pattern, covered),
-        "circuits": circuits_data(spec, design.pattern, covered),
+        "circuit": circuit_data(spec, design.pattern),
+        "circuits": circuits_data(spec, design.pattern),
         "electrics": electrics_data(spec, design.pattern),
         "stitch": stitch_data(design.pattern.plan, records)
         | machine_data(spec.machine, design.pattern.plan),
@@ -152,13 +151,13 @@ def _solve_data(state: ShapeState) -> Data:
     }
 
 
-def circuit_data(spec: Specification, laid: Pattern, covered: tuple[Crossing, ...]) -> Data:
+def circuit_data(spec: Specification, laid: Pattern) -> Data:
     """Keys of all wire together, with the crossings that thread covers.
 
     The resistance is that of all circuits in parallel.
     """
     circuit = laid.circuit
-    insulated = Counter(c.kind for c in covered)
+    insulated = Counter(c.kind for c in laid.covered)
     contacts = sum(c.kind is CrossingKind.CONTACT for c in circuit.crossings)
     cold, hot = zip(*circuit_resistances_ohm(spec, circuit), strict=True)
     return {

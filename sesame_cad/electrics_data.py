@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from patterns.circuit import Circuit, Crossing, CrossingKind
+from patterns.circuit import Circuit, CrossingKind
 from patterns.electrics import Drive, Supply, resistance_ohm
 from patterns.net import SewnNet
 from sesame_cad.pipeline import Pattern
@@ -34,10 +34,10 @@ def circuit_resistances_ohm(
     )
 
 
-def circuits_data(spec: Specification, laid: Pattern, covered: tuple[Crossing, ...]) -> list[Data]:
+def circuits_data(spec: Specification, laid: Pattern) -> list[Data]:
     """Keys of each circuit, in laying order; contacts are counted where they are passed last."""
     circuit = laid.circuit
-    insulated = set(covered)
+    insulated = set(laid.covered)
     resistances = circuit_resistances_ohm(spec, circuit)
     wires, names = spec.wires(len(circuit.parts)), circuit.part_names
     found: list[Data] = []
@@ -85,7 +85,7 @@ def electrics_data(spec: Specification, laid: Pattern) -> Data:
     ]
     total = sum(drive.current_A for drive in drives)
     warnings = [
-        f"circuit {name} cannot be driven: {fault}"
+        f"the supply cannot drive {_named(circuit, name)}: {fault}"
         for name, drive in zip(circuit.part_names, drives, strict=True)
         for fault in drive.faults(supply)
     ]
@@ -114,3 +114,7 @@ def electrics_data(spec: Specification, laid: Pattern) -> Data:
         "sewn_net": net_data(laid.net),
         "warnings": warnings,
     }
+
+
+def _named(circuit: Circuit, name: str) -> str:
+    return f"circuit {name}" if len(circuit.parts) > 1 else "the array"

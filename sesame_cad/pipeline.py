@@ -20,9 +20,8 @@ from patterns.outline import Outline, cut_outline
 from patterns.plan import StitchPlan
 from patterns.registration import Mark, registration_marks
 from patterns.rules import check_outline, check_plan
-from patterns.rules.insulation import check_insulation
+from patterns.rules.insulation import INSULATION
 from patterns.rules.net import check_net
-from patterns.rules.subject import Subject
 from patterns.stitch_plan import stitch_plan
 from patterns.violation import Violation
 from sesame_cad.coupled_state import solve_coupled
@@ -48,6 +47,8 @@ class Pattern:
     plan : StitchPlan
     net : SewnNet
         What the stitches alone connect.
+    covered : tuple of Crossing
+        Crossings of the wire that thread insulates, judged by the stitches themselves.
     """
 
     circuit: Circuit
@@ -55,6 +56,7 @@ class Pattern:
     marks: tuple[Mark, ...]
     plan: StitchPlan
     net: SewnNet
+    covered: tuple[Crossing, ...]
 
 
 class BrokenRulesError(InputError):
@@ -151,7 +153,7 @@ def wire_and_cut(spec: Specification) -> tuple[Circuit, Outline]:
     InputError
         When the array cannot be laid or cut as specified.
     """
-    return _refusing(spec, partial(_wire_and_cut, spec))
+    return refusing(spec, partial(_wire_and_cut, spec))
 
 
 def _wire_and_cut(spec: Specification) -> tuple[Circuit, Outline]:
@@ -179,7 +181,8 @@ def _pattern(spec: Specification) -> Pattern:
         *check_net(circuit, net),
         *check_outline(outline, circuit, wire_mm, spec.outline.margin_mm, plan),
     )
-    laid = Pattern(circuit, outline, marks, plan, net)
+    covered = covered_crossings(circuit, violations)
+    laid = Pattern(circuit, outline, marks, plan, net, covered)
     if violations:
         raise BrokenRulesError(laid, violations, *first_of_each_rule(spec, violations))
     return laid
@@ -203,22 +206,14 @@ def first_of_each_rule(spec: Specification, violations: tuple[Violation, ...]) -
         yield f"{spec.name}: {firsts[rule]}{more}"
 
 
-def covered_crossings(spec: Specification, laid: Pattern) -> tuple[Crossing, ...]:
-    """Crossings of the wire that thread insulates, judged by the stitches themselves."""
-    subject = Subject(
-        laid.circuit,
-        laid.plan,
-        spec.patterns_machine(),
-        spec.patterns_stitching(),
-        spec.diameters_mm,
-    )
-    bare = check_insulation(subject)
-    crossings = laid.circuit.crossings
+def covered_crossings(circuit: Circuit, violations: tuple[Violation, ...]) -> tuple[Crossing, ...]:
+    """Crossings of the wire in which no rule found a short circuit."""
     shorted = {
-        min(crossings, key=lambda c: hypot(c.x_mm - fault.x_mm, c.y_mm - fault.y_mm))
-        for fault in bare
+        min(circuit.crossings, key=lambda c: hypot(c.x_mm - fault.x_mm, c.y_mm - fault.y_mm))
+        for fault in violations
+        if fault.rule == INSULATION
     }
-    return tuple(crossing for crossing in crossings if crossing not in shorted)
+    return tuple(crossing for crossing in circuit.crossings if crossing not in shorted)
 
 
 def extent_mm(plan: StitchPlan) -> tuple[float, float]:

@@ -141,7 +141,7 @@ def print_actuation(data: Data, folder: Path) -> None:
             "mJ",
         ),
     ]
-    console.print(_grid(rows))
+    console.print(grid(rows))
     console.print(f"wrote {folder}/", soft_wrap=True)
 
 

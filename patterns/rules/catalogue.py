@@ -74,8 +74,8 @@ CATALOGUE = (
     ),
     RuleNote(
         "feed-and-cut",
-        "the wire starts and ends straight, and nothing is sewn over its ends",
-        "10 mm of free wire",
+        "the wire starts and ends straight, and nothing is sewn over its ends or lies at them",
+        "10 mm of free wire, 5 mm from that of another circuit, for the crimps",
         ("stitching.tail_length_mm",),
     ),
     RuleNote(

@@ -72,39 +72,12 @@ class Couched:
 
 def couched(subject: Subject) -> Iterator[Couched]:
     """Look at every block that ties down a stage of the circuit."""
-    for i, block in enumerate(subject.plan.blocks):
-        known = 0 <= block.stage < len(subject.stages)
-        if block.kind.is_wire and known and len(subject.needles_mm[i]):
-            yield _couched(subject, i, block.stage)
-
-
-def _couched(subject: Subject, block: int, stage: int) -> Couched:
-    needles = subject.needles_mm[block]
-    nearest = _places(subject, needles, stage)
-    lead = _lock_points(subject, block, nearest.side_mm, 1)
-    trail = _lock_points(subject, block, nearest.side_mm, -1)
-    inner = slice(lead, max(len(needles) - trail, lead + 1))
-    between = nearest.station_mm[inner], nearest.side_mm[inner]
-    return Couched(subject, block, stage, nearest, lead, *between)
-
-
-def _places(subject: Subject, needles_mm: Vectors, stage: int) -> Nearest:
-    """Nearest places on a stage; of two, that which lies between those of the needle's neighbours.
-
-    Beyond an earlier wire a needle may be nearer to another part of its own stage.
-    """
-    wire = subject.stages[stage]
-    nearest = wire.nearest(needles_mm, subject.reach_mm)
-    away = (nearest.station_mm, subject.reach_mm)
-    other = wire.nearest(needles_mm, subject.reach_mm, away_from=away)
-    padded = np.pad(nearest.station_mm, 1, mode="reflect" if len(needles_mm) > 1 else "edge")
-    expected = (padded[2:] + padded[:-2]) / 2
-    swap = np.abs(other.station_mm - expected) < np.abs(nearest.station_mm - expected)
-    return Nearest(
-        np.where(swap, other.distance_mm, nearest.distance_mm),
-        np.where(swap, other.station_mm, nearest.station_mm),
-        np.where(swap, other.side_mm, nearest.side_mm),
-    )
+    for block, nearest in subject.couching_places.items():
+        lead = _lock_points(subject, block, nearest.side_mm, 1)
+        trail = _lock_points(subject, block, nearest.side_mm, -1)
+        inner = slice(lead, max(len(nearest.side_mm) - trail, lead + 1))
+        between = nearest.station_mm[inner], nearest.side_mm[inner]
+        yield Couched(subject, block, subject.plan.blocks[block].stage, nearest, lead, *between)
 
 
 def _lock_points(subject: Subject, block: int, side: Numbers, step: int) -> int:

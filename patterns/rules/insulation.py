@@ -13,6 +13,7 @@ from patterns.violation import Violation
 from patterns.wire_index import Indices, Numbers, WireIndex
 
 _RULE = "insulation"
+INSULATION = _RULE
 _TOLERANCE_MM = 0.01
 _PLACES = 5
 """Places of a stretch at which the wire that comes near is looked for."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from patterns.path import Vectors
 from patterns.wire_index import Numbers, WireIndex
 
-_COARSE_MM = 0.5
+_COARSE_MM = 2.0
 _FINE_MM = 0.005
 
 

@@ -8,6 +8,7 @@ from shapely import (
     MultiPolygon,
     Polygon,
     STRtree,
+    contains_properly,
     contains_xy,
     linestrings,
     points,
@@ -92,7 +93,9 @@ def _check_overlap(outline: Outline) -> list[Violation]:
     if not openings or faults:
         return faults
     inside, _ = STRtree(pieces).query(openings, predicate="within")
-    held = [k for k in inside.tolist() if any(one.contains_properly(openings[k]) for one in pieces)]
+    prepare(pieces)
+    within = np.any([contains_properly(one, openings) for one in pieces], axis=0)
+    held = [k for k in inside.tolist() if within[k]]
     loose = sorted(set(range(len(openings))) - set(held))
     first, second = STRtree(openings).query(openings, predicate="intersects")
     again = sorted({int(j) for i, j in zip(first, second, strict=True) if i < j})

@@ -14,7 +14,7 @@ from patterns.path import Vectors
 from patterns.plan import UNITS_PER_MM, Block, StitchPlan
 from patterns.stitching import ROUNDING_MM, Stitching
 from patterns.violation import Violation
-from patterns.wire_index import Indices, Numbers, WireIndex
+from patterns.wire_index import Indices, Nearest, Numbers, WireIndex
 
 PARTING_MM = 100.0
 """Places along all wire are counted so much farther where a new wire begins."""
@@ -86,6 +86,16 @@ class Subject:
         """Needle points (n, 2) of each block, all runs after one another."""
         return tuple(_needles_mm(block) for block in self.plan.blocks)
 
+    @cached_property
+    def couching_places(self) -> dict[int, Nearest]:
+        """For each block that ties down a known stage, its needle points' places on that stage."""
+        return {
+            i: _nearest_in_order(self.stages[block.stage], self.needles_mm[i], self.reach_mm)
+            for i, block in enumerate(self.plan.blocks)
+            if block.kind.is_wire and 0 <= block.stage < len(self.stages)
+            if len(self.needles_mm[i])
+        }
+
     def clearance_mm(self, wire_diameter_mm: float) -> float:
         """Smallest distance between needle point and wire centreline at which they do not meet."""
         return (wire_diameter_mm + self.machine.needle_diameter_mm) / 2
@@ -120,3 +130,20 @@ class Subject:
 def _needles_mm(block: Block) -> Vectors:
     runs = [np.empty((0, 2)), *(run.needles / UNITS_PER_MM for run in block.runs)]
     return np.concatenate(runs)
+
+
+def _nearest_in_order(wire: WireIndex, needles_mm: Vectors, reach_mm: float) -> Nearest:
+    """Nearest places; of two, that which lies between those of the needle's neighbours.
+
+    Beyond an earlier wire a needle may be nearer to another part of its own stage.
+    """
+    nearest = wire.nearest(needles_mm, reach_mm)
+    other = wire.nearest(needles_mm, reach_mm, away_from=(nearest.station_mm, reach_mm))
+    padded = np.pad(nearest.station_mm, 1, mode="reflect" if len(needles_mm) > 1 else "edge")
+    expected = (padded[2:] + padded[:-2]) / 2
+    swap = np.abs(other.station_mm - expected) < np.abs(nearest.station_mm - expected)
+    return Nearest(
+        np.where(swap, other.distance_mm, nearest.distance_mm),
+        np.where(swap, other.station_mm, nearest.station_mm),
+        np.where(swap, other.side_mm, nearest.side_mm),
+    )

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import io
 import re
 from dataclasses import dataclass, fields
 
 import numpy as np
-from pyembroidery import DstWriter
 
 from patterns.plan import Points
 from patterns.records import LARGEST_STEP, Command, Records
 from sesame_cad.errors import DesignFileError, InputError
-from sesame_cad.files.dst_records import RECORD_BYTES, read_records
+from sesame_cad.files.dst_records import RECORD_BYTES, read_records, record_bytes
 from sesame_cad.files.dst_switches import DstSwitches
-from sesame_cad.files.embroidery import embroidery_pattern
 
 HEADER_BYTES = 512
 LABEL_CHARACTERS = 16
@@ -119,9 +116,7 @@ def write_dst(records: Records, label: str, switches: DstSwitches = PLAIN) -> by
     faults = _faults(records, header)
     if faults:
         raise InputError(*faults)
-    whole = io.BytesIO()
-    DstWriter.write(embroidery_pattern(records), whole)
-    return _header_bytes(header) + whole.getvalue()[HEADER_BYTES:]
+    return _header_bytes(header) + record_bytes(records)
 
 
 def decode_dst(data: bytes, switches: DstSwitches = PLAIN) -> DstFile:

@@ -1,4 +1,4 @@
-"""The records of a DST file: three bytes each, read with no library."""
+"""The records of a DST file: three bytes each, read and written with no library."""
 
 from __future__ import annotations
 
@@ -10,6 +10,21 @@ from patterns.records import Command, Records
 from sesame_cad.errors import DesignFileError
 
 RECORD_BYTES = 3
+
+X_WEIGHTS = (
+    (1, -1, 9, -9, 0, 0, 0, 0),
+    (3, -3, 27, -27, 0, 0, 0, 0),
+    (0, 0, 81, -81, 0, 0, 0, 0),
+)
+"""What the bits of the three bytes add to x, least significant first."""
+
+Y_WEIGHTS = (
+    (0, 0, 0, 0, -9, 9, -1, 1),
+    (0, 0, 0, 0, -27, 27, -3, 3),
+    (0, 0, 0, 0, -81, 81, 0, 0),
+)
+
+_PLACES = (1, 3, 9, 27, 81)
 
 _STITCH, _JUMP, _STOP, _END = 0x03, 0x83, 0xC3, 0xF3
 _COMMANDS = {_STITCH: Command.STITCH, _JUMP: Command.JUMP, _STOP: Command.STOP}
@@ -41,6 +56,33 @@ def read_records(body: bytes) -> Records:
     return Records(command, np.cumsum(step, axis=0))
 
 
+def record_bytes(records: Records) -> bytes:
+    """Encode records, none of which moves farther than one can hold."""
+    step = np.diff(records.xy, axis=0, prepend=0)
+    table = np.zeros((len(step), RECORD_BYTES), dtype=np.uint8)
+    digits = _digits(step)
+    for k, weights in enumerate(zip(X_WEIGHTS, Y_WEIGHTS, strict=True)):
+        for axis, of_bits in enumerate(weights):
+            for bit, weight in enumerate(of_bits):
+                if weight:
+                    place = _PLACES.index(abs(weight))
+                    set_here = digits[:, axis, place] == np.sign(weight)
+                    table[:, k] |= (set_here << bit).astype(np.uint8)
+    for byte, name in (*_COMMANDS.items(), (_END, Command.END)):
+        table[records.command == name, 2] |= byte
+    return table.tobytes()
+
+
+def _digits(step: Points) -> NDArray[np.int8]:
+    """Balanced ternary digits (n, 2, 5) of displacements, the lowest first."""
+    rest = step.copy()
+    digits = np.empty((*step.shape, len(_PLACES)), dtype=np.int8)
+    for place in range(len(_PLACES)):
+        digits[..., place] = (rest + 1) % 3 - 1
+        rest = (rest - digits[..., place]) // 3
+    return digits
+
+
 def _check_kinds(kind: NDArray[np.uint8], step: Points) -> None:
     unknown = ~np.isin(kind, [*_COMMANDS, _END])
     moving = np.isin(kind, [_STOP, _END]) & np.any(step != 0, axis=1)
@@ -51,20 +93,9 @@ def _check_kinds(kind: NDArray[np.uint8], step: Points) -> None:
 
 def _steps(table: NDArray[np.uint8]) -> Points:
     """Displacements in balanced ternary: one bit a sign of 1, 3, 9, 27 and 81 units."""
-    # Weights of the bits of the three bytes, least significant first.
-    x_weights = (
-        (1, -1, 9, -9, 0, 0, 0, 0),
-        (3, -3, 27, -27, 0, 0, 0, 0),
-        (0, 0, 81, -81, 0, 0, 0, 0),
-    )
-    y_weights = (
-        (0, 0, 0, 0, -9, 9, -1, 1),
-        (0, 0, 0, 0, -27, 27, -3, 3),
-        (0, 0, 0, 0, -81, 81, 0, 0),
-    )
     bits = np.unpackbits(np.arange(256, dtype=np.uint8)[:, None], axis=1, bitorder="little")
     steps = np.zeros((len(table), 2), dtype=np.int64)
     # What each value of a byte adds, looked up: a long file is decoded in little memory.
-    for k, weights in enumerate(zip(x_weights, y_weights, strict=True)):
+    for k, weights in enumerate(zip(X_WEIGHTS, Y_WEIGHTS, strict=True)):
         steps += (bits @ np.array(weights).T)[table[:, k]]
     return steps

@@ -20,6 +20,12 @@ from patterns.loop_ring import Ring
 from patterns.outline import Outline
 from patterns.registration import Mark
 from sesame_cad.errors import DesignFileError
+from sesame_cad.files.dxf_vertices import (
+    all_vertices,
+    stand_in,
+    with_vertices,
+    without_vertices,
+)
 from sesame_cad.files.sheet import lay_out
 
 Strokes = tuple[NDArray[np.float64], ...]
@@ -35,20 +41,23 @@ def outline_dxf(outline: Outline, marks: tuple[Mark, ...]) -> str:
     """
     with without_dates():
         document = new_document()
-        _draw(document.modelspace(), outline, marks)
-        return document_text(document)
+        lines = _draw(document.modelspace(), outline, marks)
+        return with_vertices(document_text(document), lines)
 
 
-def _draw(space: Modelspace, outline: Outline, marks: tuple[Mark, ...]) -> None:
-    for ring in outline.openings:
-        space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "HOLE"})
-    for ring in outline.outsides:
-        space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": "CUT"})
-    for mark in marks:
-        for stroke in mark.strokes:
-            space.add_lwpolyline(stroke.tolist(), dxfattribs={"layer": "MARK"})
+def _draw(space: Modelspace, outline: Outline, marks: tuple[Mark, ...]) -> list[Ring]:
+    """Draw every line as the vertex that stands for it, and give the lines."""
     bar = lay_out(outline, marks).check_bar
-    space.add_lwpolyline(bar.tolist(), dxfattribs={"layer": "REFERENCE"})
+    drawn = [
+        *(("HOLE", ring) for ring in outline.openings),
+        *(("CUT", ring) for ring in outline.outsides),
+        *(("MARK", stroke) for mark in marks for stroke in mark.strokes),
+        ("REFERENCE", bar),
+    ]
+    for number, (layer, _) in enumerate(drawn):
+        closed = layer in ("HOLE", "CUT")
+        space.add_lwpolyline(stand_in(number), close=closed, dxfattribs={"layer": layer})
+    return [line for _, line in drawn]
 
 
 def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
@@ -60,17 +69,18 @@ def read_outline_dxf(data: bytes) -> tuple[Outline, Strokes]:
         When the drawing is not in millimetres, a cut line is open or bent, or something other
         than a polyline is drawn.
     """
-    document = read_millimetres(data)
+    document, taken = _read(data)
     lines = list(_lines(document))
     for layer, line in lines:
         if layer in ("CUT", "HOLE") and not line.closed:
             raise DesignFileError(f"a line on layer {layer} of the DXF is not closed")
-    outside = [_points(line) for layer, line in lines if layer == "CUT"]
+    rings = {
+        layer: [_points(line, taken) for of, line in lines if of == layer] for layer in _COLOURS
+    }
+    outside = rings["CUT"]
     if not outside:
         raise DesignFileError("0 lines on the DXF's layer CUT instead of one or more")
-    openings = tuple(_points(line) for layer, line in lines if layer == "HOLE")
-    strokes = tuple(_points(line) for layer, line in lines if layer == "MARK")
-    return Outline(outside[0], openings, tuple(outside[1:])), strokes
+    return Outline(outside[0], tuple(rings["HOLE"]), tuple(outside[1:])), tuple(rings["MARK"])
 
 
 def new_document() -> Drawing:
@@ -104,19 +114,43 @@ def without_dates() -> Generator[None]:
 
 def read_millimetres(data: bytes) -> Drawing:
     """Read a drawing in millimetres; raises `DesignFileError` when it is none."""
-    document = _read(data)
+    return _in_millimetres(_decoded(data))
+
+
+def _read(data: bytes) -> tuple[Drawing, list[Ring]]:
+    """Read a drawing without most of its vertices, and these."""
+    try:
+        text, taken = without_vertices(_decoded(data))
+    except ValueError as error:
+        raise _unreadable(error) from error
+    return _in_millimetres(text), taken
+
+
+def _unreadable(error: Exception) -> DesignFileError:
+    return DesignFileError(f"this is no DXF that can be read: {error}")
+
+
+def _decoded(data: bytes) -> str:
+    try:
+        return data.decode("utf-8")
+    except ValueError as error:
+        raise _unreadable(error) from error
+
+
+def _in_millimetres(text: str) -> Drawing:
+    document = _parsed(text)
     units = document.header.get("$INSUNITS", 0)
     if units != MM:
         raise DesignFileError(f"the DXF's units are {units}, not 4 (mm)")
     return document
 
 
-def _read(data: bytes) -> Drawing:
+def _parsed(text: str) -> Drawing:
     try:
-        return read(io.StringIO(data.decode("utf-8")))
+        return read(io.StringIO(text))
     # A damaged file can fail anywhere in the library.
     except (DXFError, ValueError, LookupError, TypeError, AttributeError, OSError) as error:
-        raise DesignFileError(f"this is no DXF that can be read: {error}") from error
+        raise _unreadable(error) from error
 
 
 def _lines(document: Drawing) -> Iterator[tuple[str, LWPolyline]]:
@@ -133,5 +167,8 @@ def _lines(document: Drawing) -> Iterator[tuple[str, LWPolyline]]:
         yield layer, entity
 
 
-def _points(line: LWPolyline) -> Ring:
-    return np.array([(x, y) for x, y, *_ in line.get_points()], dtype=np.float64)
+def _points(line: LWPolyline, taken: list[Ring]) -> Ring:
+    try:
+        return all_vertices([(x, y) for x, y, *_ in line.get_points()], taken)
+    except (IndexError, ValueError) as error:
+        raise DesignFileError(f"a line of the DXF cannot be read: {error}") from error

@@ -98,14 +98,15 @@ def _piece(sheet: Sheet, piece: Piece) -> Iterator[str]:
 
 def _stitches(sheet: Sheet, block: Block) -> str:
     """Give each run as a line from its first needle point to its last."""
-    return "".join(f"M{_place(sheet, run.needles)}l{_steps(run.needles)}" for run in block.runs)
+    return "".join(
+        f"M{_place(sheet, run.needles)}l{' '.join(_steps(run.needles))}" for run in block.runs
+    )
 
 
 def _needles(sheet: Sheet, block: Block) -> str:
     """Give each needle point as a line of no length, which round ends make a dot."""
     needles = np.concatenate([run.needles for run in block.runs])
-    steps = _steps(needles).split(" ") if len(needles) > 1 else []
-    return f"M{_place(sheet, needles)}h0" + "".join(f"m{step}h0" for step in steps)
+    return "m".join([f"M{_place(sheet, needles)}h0", *(f"{step}h0" for step in _steps(needles))])
 
 
 def _place(sheet: Sheet, needles: Points) -> str:
@@ -113,11 +114,17 @@ def _place(sheet: Sheet, needles: Points) -> str:
     return f"{x:g},{y:g}"
 
 
-def _steps(needles: Points) -> str:
+def _steps(needles: Points) -> list[str]:
     """Displacements in mm, exact to the last figure: they are whole tenths."""
     step = np.diff(needles, axis=0) * (1, -1)
-    tenths = {k: f"{k / UNITS_PER_MM:g}" for k in np.unique(step).tolist()}
-    return " ".join(f"{tenths[x]},{tenths[y]}" for x, y in step.tolist())
+    if not len(step):
+        return []
+    low, width = step.min(axis=0), int(np.ptp(step[:, 1])) + 1
+    code = (step[:, 0] - low[0]) * width + step[:, 1] - low[1]
+    kinds, which = np.unique(code, return_inverse=True)
+    tenths = np.stack(np.divmod(kinds, width), axis=1) + low
+    texts = [f"{x / UNITS_PER_MM:g},{y / UNITS_PER_MM:g}" for x, y in tenths.tolist()]
+    return [texts[k] for k in which.tolist()]
 
 
 def _add_labels(root: ElementTree.Element, sheet: Sheet, circuit: Circuit, layer: str) -> None:

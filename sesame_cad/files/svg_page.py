@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from xml.etree import ElementTree
 
@@ -12,6 +13,7 @@ SVG = "http://www.w3.org/2000/svg"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 CORNER = "data-upper-left-mm"
 
+_MINUS_ZERO = re.compile(r"-0\.000\b")
 _REFERENCE = "fill:none;stroke-width:0.1;stroke:#808080"
 
 
@@ -69,8 +71,10 @@ def add_reference(root: ElementTree.Element, sheet: Sheet) -> None:
 
 def line_path(sheet: Sheet, line: Ring, *, closed: bool) -> str:
     """Path data of straight edges."""
-    corners = (f"{number(x)},{number(y)}" for x, y in sheet.on_page(line).tolist())
-    return "M " + " L ".join(corners) + (" Z" if closed else "")
+    place = sheet.on_page(line)
+    # As `number` makes them, all at once.
+    corners = " L ".join(["%.3f,%.3f"] * len(place)) % tuple(place.ravel().tolist())
+    return "M " + _MINUS_ZERO.sub("0.000", corners) + (" Z" if closed else "")
 
 
 def number(value_mm: float) -> str:

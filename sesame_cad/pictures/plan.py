@@ -23,6 +23,12 @@ NEEDLE, CUT = "#777777", "#555555"
 
 _WIDTH_IN = 9.0
 _NEEDLE_PT = 1.7
+_PIXEL_SHARE = 1 / 2700
+"""Half a pixel as a share of the width: nothing smaller is seen."""
+
+_MOST_NUMBERS = 400
+"""The numbers of more loops than this cannot be read."""
+
 _ARROW_SHARE, _LARGEST_ARROW = 0.02, 0.25
 """Length of arrow heads as a share of the width, but at most this share of the smallest loop."""
 
@@ -39,19 +45,24 @@ def plan_figure(
 ) -> Figure:
     """Draw wire, covers, needle points and cut lines in the one pair of axes of a figure.
 
-    Loops are numbered in the order in which the wire reaches them.
+    Loops are numbered in the order in which the wire reaches them, unless there are too many.
     """
     figure = Figure(figsize=_figure_size(outline, marks), layout="constrained")
     axes = figure.add_subplot()
     _draw_cut(axes, outline, marks)
-    _draw_needles(axes, plan)
+    seen_mm = _PIXEL_SHARE * (outline.bounds_mm[2] - outline.bounds_mm[0])
+    _draw_needles(axes, plan, seen_mm)
     _draw_thread(axes, plan, BlockKind.COVER, COVER, "thread cover")
     _draw_thread(axes, plan, BlockKind.STRIPES, STRIPE, "stripe")
     _draw_thread(axes, plan, BlockKind.TIES, TIE, "tie to the other layer")
     arrow_mm = _arrow_mm(circuit, outline)
     for k, stage in enumerate(circuit.stages):
-        _draw_wire(axes, stage, stage_colour(k), f"wire, {circuit.stage_name(k)}", arrow_mm)
-    _draw_numbers(axes, circuit)
+        points = stage.polyline(max(0.02, seen_mm / 2))
+        _draw_wire(axes, points, stage_colour(k), f"wire, {circuit.stage_name(k)}")
+        heads = list(_arrow_heads(stage, arrow_mm))
+        axes.add_collection(PolyCollection(heads, facecolors=stage_colour(k), zorder=6))
+    if len(circuit.layout.loops) <= _MOST_NUMBERS:
+        _draw_numbers(axes, circuit)
     _draw_ends(axes, circuit)
     _finish(axes)
     return figure
@@ -81,10 +92,13 @@ def _draw_cut(axes: Axes, outline: Outline, marks: tuple[Mark, ...]) -> None:
         )
 
 
-def _draw_needles(axes: Axes, plan: StitchPlan) -> None:
+def _draw_needles(axes: Axes, plan: StitchPlan, seen_mm: float) -> None:
+    """Draw a dot for each needle point; of those nearer to one another than is seen, some."""
     runs = [run.needles for block in plan.blocks if block.kind.is_wire for run in block.runs]
     if runs:
-        x, y = np.concatenate(runs).T / UNITS_PER_MM
+        stitch_mm = np.median(np.hypot(*np.diff(runs[0], axis=0).T)) / UNITS_PER_MM
+        every = 1 + 2 * int(seen_mm / max(float(stitch_mm), seen_mm / 9))  # odd: of both sides
+        x, y = np.concatenate([needles[::every] for needles in runs]).T / UNITS_PER_MM
         # Many times quicker than scatter, whose points could differ in size.
         (dots,) = axes.plot(x, y, "o", color=NEEDLE, label="needle point", zorder=2)
         dots.set_markersize(_NEEDLE_PT)
@@ -103,11 +117,8 @@ def _draw_thread(axes: Axes, plan: StitchPlan, kind: BlockKind, colour: str, lab
         axes.add_collection(lines)
 
 
-def _draw_wire(axes: Axes, path: WirePath, colour: str, label: str, arrow_mm: float) -> None:
-    points = path.polyline(0.02)
+def _draw_wire(axes: Axes, points: Vectors, colour: str, label: str) -> None:
     axes.plot(points[:, 0], points[:, 1], color=colour, linewidth=1.6, label=label, zorder=5)
-    heads = PolyCollection(list(_arrow_heads(path, arrow_mm)), facecolors=colour, zorder=6)
-    axes.add_collection(heads)
 
 
 def _arrow_heads(path: WirePath, length_mm: float) -> Vectors:

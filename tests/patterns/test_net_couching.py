@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shapely import STRtree
 
 from patterns.circuit import Circuit
 from patterns.grid import square_grid
@@ -14,6 +13,7 @@ from patterns.net import Kind, SewnNet, sewn_net
 from patterns.plan import BlockKind, StitchPlan, quantise
 from patterns.rules import check_plan
 from patterns.rules.net import check_net
+from patterns.sewn_pieces import SewnPieces
 from patterns.sewn_wire import sewn_strand
 from patterns.stitch_plan import stitch_plan
 from patterns.stitching import Stitching
@@ -97,7 +97,7 @@ def test_a_stitch_square_over_the_wire_is_one_place_on_it(mode: str) -> None:
 
 def test_rounding_makes_no_zigzag_of_places_on_the_wire() -> None:
     places = np.stack([2.0 * np.arange(30), np.where(np.arange(30) % 2, 0.1, 0.0)], axis=1)
-    strand = sewn_strand(0, places, STRtree([]))
+    strand = sewn_strand(0, places, SewnPieces([]))
     gaps = np.hypot(*(strand.points_mm[:, None] - places[2:-2]).transpose(2, 0, 1)).min(axis=0)
     assert gaps.max() < 1e-9
 

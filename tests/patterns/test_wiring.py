@@ -18,9 +18,11 @@ from patterns.outline import cut_outline
 from patterns.path import Line, WirePath
 from patterns.plan import BlockKind, StitchPlan
 from patterns.rules import check_outline, check_plan
+from patterns.rules.feed import check_feed_and_cut
+from patterns.rules.subject import Subject
 from patterns.stitch_plan import stitch_plan
 from patterns.tails import tail_pieces
-from patterns.terminals import TAIL_CLEAR_MM, Side
+from patterns.terminals import CRIMP_APART_MM, TAIL_CLEAR_MM, Side
 from patterns.wiring import Wiring, several_wires
 
 TAIL_MM = 40.0
@@ -198,3 +200,40 @@ def test_no_stage_ends_in_a_contact_with_another_circuit(bench) -> None:
     ends = [stage.at(stage.length_mm)[0][0] for stage in wiring.stages]
     contacts = np.array([(c.x_mm, c.y_mm) for c in wiring.layout.contacts])
     assert min(np.hypot(*(contacts - end).T).min() for end in ends) > 1.0
+
+
+def free_ends(wiring: Wiring) -> list[list[LineString]]:
+    """The last 10 mm of wire at both ends, circuit by circuit."""
+    return [
+        [
+            LineString(one.wire.at([a, b])[0])
+            for a, b in ((0.0, 10.0), (one.wire_length_mm - 10.0, one.wire_length_mm))
+        ]
+        for one in wiring.circuits
+    ]
+
+
+@pytest.mark.parametrize("loop_mm", [10.0, 12.0, 15.0])
+@pytest.mark.parametrize("side", list(Side))
+def test_crimps_of_two_circuits_have_room(loop_mm: float, side: Side) -> None:
+    groups = tuple(Group(f"row{r}", (2 * r, 2 * r + 1), side, anywhere=True) for r in range(3))
+    wiring = several_wires(square_grid(3, 2, loop_mm), groups, TAIL_MM, (4.0, 4.0, 4.0))
+    for first, second in combinations(free_ends(wiring), 2):
+        assert min(a.distance(b) for a in first for b in second) >= CRIMP_APART_MM - 1e-6
+
+
+def test_ends_without_room_for_crimps_are_found(bench, rows) -> None:
+    wiring, plan = rows
+    first, second, third = wiring.circuits
+    subject = Subject(
+        replace(wiring, circuits=(first, second, first)),
+        plan,
+        bench.machine,
+        bench.stitching,
+        DIAMETERS,
+    )
+    said = [(fault.message, fault.actual, fault.allowed) for fault in check_feed_and_cut(subject)]
+    message = "the free ends of two wires leave no room for their crimps: distance"
+    assert said == [(message, 0.0, CRIMP_APART_MM)] * 2
+    assert not check_feed_and_cut(replace(subject, circuit=wiring))
+    assert third.wire_length_mm > 0
