@@ -76,9 +76,7 @@ class _Enclosures:
     def about(self, points: Vectors, where: Vectors) -> list[bool]:
         """Whether fabric spans each of the wires that go round a point (1, 2)."""
         near = np.flatnonzero(((self.low <= where) & (where <= self.high)).all(axis=1))
-        return [
-            self.spanned[k] for k in near.tolist() if contains(points, self.edges[k], where)[0]
-        ]
+        return [self.spanned[k] for k in near.tolist() if contains(points, self.edges[k], where)[0]]
 
 
 def _enclosures(chains: Chains, regions: FabricRegions) -> _Enclosures:
