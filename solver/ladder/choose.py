@@ -69,7 +69,7 @@ def solve_scene(
     allow_unreliable : bool
         Give the shape even where it must not be relied on.
     refinement, told
-        Of general scenes: see `by_mesh`.
+        Of scenes that a mesh solves: see `by_mesh`.
     contact : ContactChoice
         ``off``: a mesh that meets itself is given without contact, which is told with the number
         of its crossings. The smooth basis knows no contact, and goes on to the mesh.
@@ -81,10 +81,11 @@ def solve_scene(
     NotConvergedError
         When there is no shape to rely on.
     """
-    mesh = partial(by_mesh, lenient=allow_unreliable, contact=contact)
+    mesh = partial(
+        by_mesh, lenient=allow_unreliable, refinement=refinement, told=told, contact=contact
+    )
     if isinstance(scene, SheetScene):
-        solve = partial(mesh, refinement=refinement, told=told)
-        return _solve_sheet(scene, fidelity, tolerance, solve)
+        return _solve_sheet(scene, fidelity, tolerance, mesh)
     if isinstance(scene, ArrayScene):
         return _solve_array(scene, fidelity, tolerance, mesh, lenient=allow_unreliable)
     return _solve_loop(scene, fidelity, tolerance, mesh, lenient=allow_unreliable)

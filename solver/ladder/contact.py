@@ -17,7 +17,6 @@ from solver.mesh.contact_solve import solve_in_contact
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.scene import ArrayScene
 from solver.mesh.sheet import SheetScene
-from solver.mesh.solve import solve_array
 
 MOST_IN_CONTACT = 1700
 """Triangles of the finest mesh that is solved with contact, of which a step takes many times
@@ -88,7 +87,7 @@ def contact_remedy(scene: MeshScene) -> str:
 
 
 def refuse_what_meets_itself(
-    scene: MeshScene, refinement: int, solve: Callable[..., MeshEquilibrium] = solve_array
+    scene: MeshScene, refinement: int, solve: Callable[[ArrayScene, int], MeshEquilibrium]
 ) -> None:
     """Refuse early an array too large for contact if a corner of it already meets itself.
 
@@ -97,7 +96,7 @@ def refuse_what_meets_itself(
     refinement : int
         Of the coarsest mesh that would be solved.
     solve : callable
-        As `solve_array`.
+        Gives an array's shape on a mesh refined so many times, without contact, whatever it is.
 
     Raises
     ------
@@ -116,13 +115,7 @@ def refuse_what_meets_itself(
     triangles = len(coarsest.triangles) * 4**refinement
     if triangles <= LARGEST_IN_CONTACT:
         return
-    found = solve(
-        corner,
-        refinement=refinement,
-        tension_field=scene.loop.modulus_ratio == 1,
-        allow_unreliable=True,
-    )
-    if found.meets_itself:
+    if solve(corner, refinement).meets_itself:
         size = f"{scene.rows} × {scene.columns} loops have {triangles} triangles or more"
         raise NotConvergedError(
             f"{corner.rows} × {corner.columns} of these loops already meet, and {size}; "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -69,7 +70,8 @@ def by_mesh(
     """
     refinements = _refinements(scene, refinement)
     if contact is ContactChoice.AUTO and not lenient:
-        refuse_what_meets_itself(scene, refinements[0])
+        alone = partial(_solved, field=False, lenient=True)
+        refuse_what_meets_itself(scene, refinements[0], alone)
     found = _refined(
         scene, tolerance, refinements, told, contact, lenient=lenient, add_twist=add_twist
     )
