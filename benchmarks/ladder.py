@@ -26,10 +26,12 @@ from matplotlib.figure import Figure
 
 from sesame_cad.files.evolver import evolver_datafile
 from solver.compact import solve_loop
+from solver.held import held_path
 from solver.many import solve_many
 from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene
 from solver.mesh.solve import solve_array, solve_loop_mesh
+from solver.plates import PlateAxis, Plates
 from solver.scaling_law import scaling_height
 from solver.scene import LoopScene
 
@@ -119,6 +121,14 @@ def grid_of_figure_2():
     return best_of(3, lambda: solve_many(strain.ravel(), beta.ravel(), 0.3, tolerance=1e-3))[0]
 
 
+def path_of_held_states(states=50):
+    """Seconds for a loop pressed flat by two plates, gap after gap, each from the one before."""
+    free = solve_loop(SCENE).shape.height
+    gaps = np.linspace(0.99, 0.3, states) * free
+    path = [(SCENE, Plates(float(gap), PlateAxis.HEIGHT)) for gap in gaps]
+    return best_of(1, lambda: list(held_path(path)))[0]
+
+
 def kept_arrays(sizes):
     """Rows (loops, triangles, unknowns, seconds) of square arrays with the fabric kept."""
     for n in sizes:
@@ -192,6 +202,7 @@ def main():
     extra = {
         "compact from a neighbouring solution": warm_seconds(),
         "25 × 26 points of Fig. 2, at 1e-3": grid_of_figure_2(),
+        "50 gaps of two plates, one after the other": path_of_held_states(),
     }
     arrays = list(kept_arrays((1, 2, 3, 4, 6)))
     draw(points)

@@ -90,9 +90,14 @@ _GRID = re.compile(r"([1-9][0-9]{0,2})\s*[x×]\s*([1-9][0-9]{0,2})")
 @click.option(
     "--tolerance",
     type=click.FloatRange(1e-8, 0.5),
-    default=1e-4,
+    help="Relative error allowed in the height; 1e-4 unless given, 0.1 of arrays that need a mesh.",
+)
+@click.option(
+    "--contact",
+    type=click.Choice(["auto", "off"]),
+    default="auto",
     show_default=True,
-    help="Relative error allowed in the height.",
+    help="off: give a mesh that passes through itself as it is, with the number of its crossings.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, and nothing else, to stdout.")
 def command(
@@ -109,7 +114,8 @@ def command(
     loops: str,
     between: str,
     fidelity: str,
-    tolerance: float,
+    tolerance: float | None,
+    contact: str,
     as_json: bool,
 ) -> None:
     """Solve one loop, or a grid of loops: energies in units of E_f t R², lengths in units of R.
@@ -140,7 +146,7 @@ def command(
             alpha,
         )
         scene = _scene(loop, loops, between)
-        solve = _solver(scene, fidelity, tolerance)
+        solve = _solver(scene, fidelity, tolerance, contact)
         start = perf_counter()
         answer = solve()
         seconds = perf_counter() - start
@@ -170,7 +176,9 @@ def _scene(loop: LoopScene, loops: str, between: str) -> LoopScene | ArrayScene:
     return ArrayScene(loop, rows, columns, Between(between))
 
 
-def _solver(scene: LoopScene | ArrayScene, fidelity: str, tolerance: float) -> Callable[[], Answer]:
+def _solver(
+    scene: LoopScene | ArrayScene, fidelity: str, tolerance: float | None, contact: str
+) -> Callable[[], Answer]:
     """Load what the solve needs; the scaling law loads no more than itself."""
     from functools import partial
 
@@ -180,8 +188,15 @@ def _solver(scene: LoopScene | ArrayScene, fidelity: str, tolerance: float) -> C
         from solver.ladder.law import by_law
 
         return partial(by_law, scene, "asked for")
-    from solver.ladder.choose import prepare_tables, solve_scene
+    from solver.ladder.choose import prepare_tables, solve_scene, usual_tolerance
+    from solver.ladder.contact import ContactChoice
     from solver.ladder.fidelity import Fidelity
 
     prepare_tables()
-    return partial(solve_scene, scene, fidelity=Fidelity(fidelity), tolerance=tolerance)
+    return partial(
+        solve_scene,
+        scene,
+        fidelity=Fidelity(fidelity),
+        tolerance=usual_tolerance(scene) if tolerance is None else tolerance,
+        contact=ContactChoice(contact),
+    )

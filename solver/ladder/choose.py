@@ -14,6 +14,7 @@ from solver.checks import SLACK, TWIST
 from solver.compact import solve_loop
 from solver.errors import SceneError
 from solver.ladder.answer import Answer, Rung
+from solver.ladder.contact import ContactChoice
 from solver.ladder.fabric_share import curved_fabric
 from solver.ladder.fidelity import Fidelity
 from solver.ladder.law import by_law, law_error
@@ -23,6 +24,15 @@ from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene, Contact
 from solver.mesh.sheet import SheetScene
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
+
+_Mesh = Callable[..., Answer]
+"""`by_mesh` with what holds for the whole solve."""
+
+TOLERANCE = 1e-4
+"""Error of the height that is allowed where nobody says which."""
+ARRAY_TOLERANCE = 0.1
+"""The same of arrays whose loops act on each other: most meshes they can have err by more than a
+hundredth."""
 
 _ASKED = "asked for"
 _PART_OF_TOLERANCE = 0.3
@@ -34,6 +44,12 @@ def prepare_tables() -> None:
     solve_loop(LoopScene(0.3, 0.0145, 0.3))
 
 
+def usual_tolerance(scene: MeshScene) -> float:
+    """Error of the height, relative to it, that is allowed of a scene unless another is asked."""
+    alone = isinstance(scene, LoopScene) or (isinstance(scene, ArrayScene) and _tiles(scene))
+    return TOLERANCE if alone else ARRAY_TOLERANCE
+
+
 def solve_scene(
     scene: MeshScene,
     *,
@@ -42,6 +58,7 @@ def solve_scene(
     allow_unreliable: bool = False,
     refinement: int | None = None,
     told: Callable[[str], None] = lambda _: None,
+    contact: ContactChoice = ContactChoice.AUTO,
 ) -> Answer:
     """Solve a scene on the rung that is asked for, or on the cheapest that meets the tolerance.
 
@@ -52,7 +69,10 @@ def solve_scene(
     allow_unreliable : bool
         Give the shape even where it must not be relied on.
     refinement, told
-        Of general scenes: see `by_mesh`.
+        Of scenes that a mesh solves: see `by_mesh`.
+    contact : ContactChoice
+        ``off``: a mesh that meets itself is given without contact, which is told with the number
+        of its crossings. The smooth basis knows no contact, and goes on to the mesh.
 
     Raises
     ------
@@ -61,36 +81,43 @@ def solve_scene(
     NotConvergedError
         When there is no shape to rely on.
     """
+    mesh = partial(
+        by_mesh, lenient=allow_unreliable, refinement=refinement, told=told, contact=contact
+    )
     if isinstance(scene, SheetScene):
-        solve = partial(by_mesh, lenient=allow_unreliable, refinement=refinement, told=told)
-        return _solve_sheet(scene, fidelity, tolerance, solve)
+        return _solve_sheet(scene, fidelity, tolerance, mesh)
     if isinstance(scene, ArrayScene):
-        return _solve_array(scene, fidelity, tolerance, lenient=allow_unreliable)
-    return _solve_loop(scene, fidelity, tolerance, lenient=allow_unreliable)
+        return _solve_array(scene, fidelity, tolerance, mesh, lenient=allow_unreliable)
+    return _solve_loop(scene, fidelity, tolerance, mesh, lenient=allow_unreliable)
 
 
-def _solve_loop(scene: LoopScene, fidelity: Fidelity, tolerance: float, *, lenient: bool) -> Answer:
+def _solve_loop(
+    scene: LoopScene, fidelity: Fidelity, tolerance: float, mesh: _Mesh, *, lenient: bool
+) -> Answer:
     if fidelity is Fidelity.SCALING:
         return by_law(scene, _ASKED)
     if fidelity is Fidelity.MESH:
-        return by_mesh(scene, _ASKED, tolerance, lenient=lenient)
+        return mesh(scene, _ASKED, tolerance)
     if fidelity is Fidelity.COMPACT:
         return _by_compact(scene, _ASKED, tolerance, lenient=lenient)
-    return _by_cheapest(scene, tolerance, lenient=lenient)
+    return _by_cheapest(scene, tolerance, mesh, lenient=lenient)
 
 
-def _by_cheapest(scene: LoopScene, tolerance: float, *, lenient: bool) -> Answer:
+def _by_cheapest(scene: LoopScene, tolerance: float, mesh: _Mesh, *, lenient: bool) -> Answer:
     error = law_error(scene)
     if error <= tolerance:
         return by_law(scene, f"its error, at most {error:.2g}, is within the tolerance")
     if scene.alpha > 0:
-        return _with_bending_if_it_matters(scene, tolerance, lenient=lenient)
-    return _by_compact_or_mesh(scene, _CHEAPEST, tolerance, lenient=lenient)
+        return _with_bending_if_it_matters(scene, tolerance, mesh, lenient=lenient)
+    return _by_compact_or_mesh(scene, _CHEAPEST, tolerance, mesh, lenient=lenient)
 
 
-def _with_bending_if_it_matters(scene: LoopScene, tolerance: float, *, lenient: bool) -> Answer:
+def _with_bending_if_it_matters(
+    scene: LoopScene, tolerance: float, mesh: _Mesh, *, lenient: bool
+) -> Answer:
     """Leave the fabric's bending out where what it would change is well within the tolerance."""
-    bare = _by_compact_or_mesh(replace(scene, alpha=0.0), _CHEAPEST, tolerance, lenient=True)
+    limp, forgiving = replace(scene, alpha=0.0), partial(mesh, lenient=True)
+    bare = _by_compact_or_mesh(limp, _CHEAPEST, tolerance, forgiving, lenient=True)
     found, curved = bare.equilibrium, curved_fabric(bare, scene)
     if found is None or curved is None:  # no law knows such fabric
         return bare
@@ -99,11 +126,11 @@ def _with_bending_if_it_matters(scene: LoopScene, tolerance: float, *, lenient: 
     if settled and share <= _PART_OF_TOLERANCE * tolerance:
         return replace(bare, omitted=(*bare.omitted, *curved.left_out(scene)))
     reason = f"{_CHEAPEST}; the fabric's bending was added: {share:.2g} of what buckling releases"
-    return _by_compact_or_mesh(scene, reason, tolerance, lenient=lenient)
+    return _by_compact_or_mesh(scene, reason, tolerance, mesh, lenient=lenient)
 
 
 def _by_compact_or_mesh(
-    scene: LoopScene, reason: str, tolerance: float, *, lenient: bool
+    scene: LoopScene, reason: str, tolerance: float, mesh: _Mesh, *, lenient: bool
 ) -> Answer:
     """Solve in the smooth basis; where the fabric goes slack, on a mesh with a tension field."""
     smooth = _by_compact(scene, reason, tolerance, lenient=True)
@@ -120,7 +147,7 @@ def _by_compact_or_mesh(
     why = "the fabric is slack" if slack else "the smooth basis did not settle"
     added = "a mesh" if scene.alpha > 0 else "a mesh with a tension field"
     reason = f"{why}: {added} was added"
-    return by_mesh(scene, reason, tolerance, lenient=lenient, add_twist=True)
+    return mesh(scene, reason, tolerance, add_twist=True)
 
 
 def _lacks_twist(scene: LoopScene, answer: Answer) -> bool:
@@ -157,28 +184,24 @@ def _tiles(scene: ArrayScene) -> bool:
 
 
 def _solve_array(
-    scene: ArrayScene, fidelity: Fidelity, tolerance: float, *, lenient: bool
+    scene: ArrayScene, fidelity: Fidelity, tolerance: float, mesh: _Mesh, *, lenient: bool
 ) -> Answer:
     if scene.rows * scene.columns == 1:
-        return solve_scene(
-            scene.loop, fidelity=fidelity, tolerance=tolerance, allow_unreliable=lenient
-        )
+        return _solve_loop(scene.loop, fidelity, tolerance, mesh, lenient=lenient)
     if fidelity is not Fidelity.MESH and _tiles(scene):
         wire = scene.stiffness[0]
         loop = replace(scene.loop, beta=wire.beta, axial_stiffness=wire.axial_stiffness)
-        one = solve_scene(loop, fidelity=fidelity, tolerance=tolerance, allow_unreliable=lenient)
+        one = _solve_loop(loop, fidelity, tolerance, mesh, lenient=lenient)
         return replace(one, reason=f"equal loops with cut gaps tile: one is solved; {one.reason}")
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
         raise SceneError(f"these loops do not tile; {fidelity} solves one loop, mesh solves arrays")
     if fidelity is Fidelity.MESH:
-        return by_mesh(scene, _ASKED, tolerance, lenient=lenient)
+        return mesh(scene, _ASKED, tolerance)
     reason = "the loops of this array act on each other"
-    return by_mesh(scene, reason, tolerance, lenient=lenient, add_twist=True)
+    return mesh(scene, reason, tolerance, add_twist=True)
 
 
-def _solve_sheet(
-    scene: SheetScene, fidelity: Fidelity, tolerance: float, solve: Callable[..., Answer]
-) -> Answer:
+def _solve_sheet(scene: SheetScene, fidelity: Fidelity, tolerance: float, solve: _Mesh) -> Answer:
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
         raise SceneError(f"{fidelity} solves one loop of its own; mesh solves any scene")
     if fidelity is Fidelity.MESH:

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from solver.checks import CONTACT
 from solver.errors import NotConvergedError
 from solver.ladder.answer import Answer, Rung
+from solver.ladder.contact import (
+    ContactChoice,
+    InContact,
+    contact_remedy,
+    finest_in_contact,
+    refuse_what_meets_itself,
+)
 from solver.mesh.any_scene import MeshScene, fabric_of, size_of, twisted
-from solver.mesh.barrier import REMEDY, contact_available
-from solver.mesh.contact_solve import solve_in_contact
+from solver.mesh.array_mesh import Between
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.omissions import lacks_twist, mesh_omissions, wrinkles_escape
+from solver.mesh.scene import ArrayScene
 from solver.mesh.solve_any import solve_on_mesh
 from solver.mesh.thickness import REACH
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
@@ -26,49 +33,15 @@ FINEST_SLACK_LOOP, FINEST_SLACK_ARRAY = 4, 3
 """Finer meshes of wrinkled fabric take hundreds of steps; what they would change is told."""
 MOST_TRIANGLES = 25_000
 """Of the finest mesh, if coarser ones do not have more already."""
-MOST_IN_CONTACT = 1700
-"""Triangles of the finest mesh that is solved with contact, of which a step takes many times
-longer: at the least two meshes are, to tell the error."""
-LARGEST_IN_CONTACT = 6000
-"""Triangles of a mesh on which contact is not even begun."""
-
 TWIST_ADDED = "the wire's twist was added, for the shape without it has writhe"
 
 _COARSEST_LOOP, _COARSEST_ARRAY = 2, 1
 """Refinements of the first mesh that is solved for itself."""
+_MANY_LOOPS = 9
 _FLAT = 1e-6
 """Height over the loops' mean radius up to which a shape is flat."""
 _SHARES_OF_ERROR = 3.0
 """A second-order error is a third of its change from the mesh with edges twice as long."""
-
-
-class _InContact:
-    """Solves again, with contact, what meets itself; from then on every mesh."""
-
-    def __init__(self, scene: MeshScene) -> None:
-        self._scene = scene
-        self._last: MeshEquilibrium | None = None
-
-    def solved(self, found: MeshEquilibrium, refinement: int, *, lenient: bool) -> MeshEquilibrium:
-        """Give the shape as it is, or solved with contact where that is needed and can be had."""
-        needed = self._last is not None or found.meets_itself
-        small = len(found.mesh.triangles) <= LARGEST_IN_CONTACT
-        if not (needed and small and contact_available()):
-            return found
-        solved = solve_in_contact(
-            self._scene,
-            refinement=refinement,
-            tension_field=found.tension_field,
-            allow_unreliable=lenient,
-            before=found.distances,
-        )
-        last = self._last
-        self._last = replace(
-            solved,
-            coarser_height=math.nan if last is None else last.height,
-            coarser_loop_heights=np.zeros(0) if last is None else last.loop_heights,
-        )
-        return self._last
 
 
 def by_mesh(
@@ -80,6 +53,7 @@ def by_mesh(
     add_twist: bool = False,
     refinement: int | None = None,
     told: Callable[[str], None] = lambda _: None,
+    contact: ContactChoice = ContactChoice.AUTO,
 ) -> Answer:
     """Refine until a third of the last change in height is the error allowed.
 
@@ -91,13 +65,20 @@ def by_mesh(
         Of the one mesh that is solved, whatever its error; the tolerance then plays no part.
     told : callable
         Told of every mesh before it is solved.
+    contact : ContactChoice
+        ``off`` gives a shape that meets itself as it is, and tells it.
     """
     refinements = _refinements(scene, refinement)
-    found = _refined(scene, tolerance, refinements, told, lenient=lenient, add_twist=add_twist)
+    if contact is ContactChoice.AUTO and not lenient:
+        alone = partial(_solved, field=False, lenient=True)
+        refuse_what_meets_itself(scene, refinements[0], alone)
+    found = _refined(
+        scene, tolerance, refinements, told, contact, lenient=lenient, add_twist=add_twist
+    )
     tolerance = math.inf if refinement is not None else tolerance
     if found.scene != scene:
         reason = f"{reason}; {TWIST_ADDED}"
-    return _mesh_answer(found, reason, tolerance, lenient=lenient)
+    return _mesh_answer(found, reason, tolerance, contact, lenient=lenient)
 
 
 def _refinements(scene: MeshScene, only: int | None) -> range:
@@ -114,14 +95,15 @@ def _refined(
     tolerance: float,
     refinements: range,
     told: Callable[[str], None],
+    choice: ContactChoice,
     *,
     lenient: bool,
     add_twist: bool,
 ) -> MeshEquilibrium:
     """Solve on finer and finer meshes; from where plain fabric goes slack, with a tension field."""
-    contact = _InContact(scene)
+    contact = InContact(scene, choice)
     refinement = refinements[0]
-    field = False
+    field = _slack_for_sure(scene)
     while True:
         told(f"mesh refined {refinement} times")
         found = _solved(scene, refinement, field=field, lenient=lenient)
@@ -132,16 +114,34 @@ def _refined(
             with_twist = twisted(scene, ROUND_WIRE_TWIST_RATIO)
             try:
                 return _refined(
-                    with_twist, tolerance, refinements, told, lenient=lenient, add_twist=False
+                    with_twist,
+                    tolerance,
+                    refinements,
+                    told,
+                    choice,
+                    lenient=lenient,
+                    add_twist=False,
                 )
             except NotConvergedError:
                 add_twist = False  # the account of what is left out tells the twist
-        _check_converged(found, lenient=lenient)
+        _check_converged(found, choice, lenient=lenient)
         # two coarse meshes may agree by chance
         settled = refinement > _COARSEST_ARRAY and _mesh_error(found) <= tolerance
-        if settled or refinement >= refinements[-1] or _finest(scene, found, refinement):
+        if settled or refinement >= refinements[-1] or _finest(scene, found, refinement, choice):
             return found
         refinement += 1
+
+
+def _slack_for_sure(scene: MeshScene) -> bool:
+    """Whether the fabric of an array need not be solved plain first: large ones all go slack.
+
+    Where fabric stays taut the tension field is the plain energy.
+    """
+    if not isinstance(scene, ArrayScene) or scene.rows * scene.columns < _MANY_LOOPS:
+        return False
+    fabric = scene.loop
+    plain = fabric.modulus_ratio == 1 and fabric.alpha == 0 and fabric.strain > 0
+    return plain and scene.between is Between.KEPT
 
 
 def _solved(scene: MeshScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
@@ -159,25 +159,23 @@ def _solved(scene: MeshScene, refinement: int, *, field: bool, lenient: bool) ->
     return solve_on_mesh(scene, refinement, tension_field=True, allow_unreliable=True)
 
 
-def _finest(scene: MeshScene, found: MeshEquilibrium, refinement: int) -> bool:
+def _finest(
+    scene: MeshScene, found: MeshEquilibrium, refinement: int, choice: ContactChoice
+) -> bool:
     """Whether no finer mesh is to be solved."""
     finest = FINEST_SLACK_LOOP if isinstance(scene, LoopScene) else FINEST_SLACK_ARRAY
     slackened = found.tension_field and refinement >= finest
     large = 4 * len(found.mesh.triangles) > MOST_TRIANGLES
-    beyond_help = found.contact is None and found.meets_itself
-    return slackened or large or beyond_help or _finest_in_contact(found)
+    wanted = choice is ContactChoice.AUTO and found.meets_itself
+    beyond_help = wanted and found.contact is None
+    return slackened or large or beyond_help or finest_in_contact(found)
 
 
-def _check_converged(found: MeshEquilibrium, *, lenient: bool) -> None:
+def _check_converged(found: MeshEquilibrium, choice: ContactChoice, *, lenient: bool) -> None:
     # what meets itself is refused for that, with what would mend it
-    if not (lenient or found.status == "converged" or found.meets_itself):
+    told = choice is ContactChoice.AUTO and found.meets_itself
+    if not (lenient or found.status == "converged" or told):
         raise NotConvergedError(found.status)
-
-
-def _finest_in_contact(found: MeshEquilibrium) -> bool:
-    """Whether two meshes were solved with contact, and the next one would be too fine for it."""
-    told = found.contact is not None and not math.isnan(found.coarser_height)
-    return told and 4 * len(found.mesh.triangles) > MOST_IN_CONTACT
 
 
 def _mesh_error(found: MeshEquilibrium) -> float:
@@ -199,10 +197,14 @@ def _buckled(found: MeshEquilibrium) -> bool:
     return found.height > _FLAT * size_of(found.scene)
 
 
-def _contact_remedy() -> str:
-    if not contact_available():
-        return f"to add contact: {REMEDY}"
-    return f"contact is solved on up to {LARGEST_IN_CONTACT} triangles: solve fewer loops"
+def _how_it_meets(found: MeshEquilibrium) -> str:
+    near = found.distances
+    if near.crossings:
+        return (
+            f"the shape passes through itself, at {near.crossings} pairs of an edge and a triangle"
+        )
+    apart = min(near.wire_to_wire, 2 * near.wire_to_fabric) / found.wire_diameter
+    return f"parts come as near as {apart:.2g} of what the wire's thickness allows"
 
 
 def _error_remedy(found: MeshEquilibrium, error: float) -> str:
@@ -216,12 +218,21 @@ def _error_remedy(found: MeshEquilibrium, error: float) -> str:
     )
 
 
-def _mesh_answer(found: MeshEquilibrium, reason: str, tolerance: float, *, lenient: bool) -> Answer:
+def _mesh_answer(
+    found: MeshEquilibrium,
+    reason: str,
+    tolerance: float,
+    contact: ContactChoice,
+    *,
+    lenient: bool,
+) -> Answer:
     omitted = mesh_omissions(found)
     error = _mesh_error(found)
-    faults = [f"{o.term} is left out, and the shape is wrong without" for o in omitted if o.fatal]
-    if any(o.fatal and o.term == CONTACT for o in omitted):
-        faults.append(_contact_remedy())
+    off = contact is ContactChoice.OFF
+    fatal = [o.term for o in omitted if o.fatal and not (off and o.term == CONTACT)]
+    faults = [f"{term} is left out, and the shape is wrong without" for term in fatal]
+    if CONTACT in fatal:
+        faults.append(contact_remedy(found.scene))
     if found.contact is not None and found.distances.crossings:
         faults.append("the shape still passes through itself; raise beta or lower strain")
     if error > tolerance:
@@ -230,6 +241,8 @@ def _mesh_answer(found: MeshEquilibrium, reason: str, tolerance: float, *, lenie
         raise NotConvergedError("; ".join(faults))
     if found.contact is not None:
         reason += "; the shape met itself: contact was added"
+    elif off and found.meets_itself:
+        reason += f"; contact was left out, as asked: {_how_it_meets(found)}"
     return Answer(
         rung=Rung.MESH,
         reason=reason,

@@ -23,6 +23,8 @@ from solver.mesh.triangulation import embedded
 Vectors = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+_MARGIN = 0.1
+"""Over the mean edge: how far vertices may move before neighbours are looked for again."""
 REMEDY = "pip install 'sesame-cad[contact]'"
 
 
@@ -54,6 +56,28 @@ class Collisions:
     positions: Vectors
     """Of the vertices that the barrier knows."""
     pairs: Any
+
+
+class _Neighbourhood:
+    """Pairs that may come near enough to feel each other, until the vertices have moved far."""
+
+    def __init__(self, body: Any, reach: float, margin: float) -> None:
+        self._body = body
+        self._reach = reach
+        self._margin = margin
+        self._looked_at: Vectors | None = None
+        self._pairs: Any = None
+
+    def pairs(self, positions: Vectors) -> Any:
+        """Candidates at positions (n, 3), looked for again only when one has moved too far."""
+        before = self._looked_at
+        moved = np.inf if before is None else np.linalg.norm(positions - before, axis=1).max()
+        if moved > self._margin:
+            self._pairs = collision_library().Candidates()
+            # each of two boxes grows by half the reach, and by how far its vertices may move
+            self._pairs.build(self._body, positions, self._reach / 2 + self._margin)
+            self._looked_at = positions
+        return self._pairs
 
 
 @dataclass(frozen=True)
@@ -120,11 +144,18 @@ class Barrier:
         # with a physical barrier the stiffness is the force of a pair at the middle of its reach
         return collision_library().BarrierPotential(self.reach, self.force, True)
 
+    @cached_property
+    def _neighbourhood(self) -> _Neighbourhood:
+        ends = self.points[self.edges]
+        length = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
+        return _Neighbourhood(self._body, self.reach + self.gap, _MARGIN * length)
+
     def collisions(self, positions: Vectors) -> Collisions:
         """Find what feels each other at positions (n, 3)."""
         ordered = np.asfortranarray(positions[self._used])
+        near = self._neighbourhood.pairs(ordered)
         pairs = collision_library().NormalCollisions()
-        pairs.build(self._body, ordered, self.reach, self.gap)
+        pairs.build(near, self._body, ordered, self.reach, self.gap)
         return Collisions(ordered, pairs)
 
     def energy(self, found: Collisions) -> float:

@@ -30,11 +30,14 @@ from solver.mesh.sheet_unit import in_unit_of
 from solver.mesh.solve_any import solve_on_mesh
 from solver.mesh.solve_sheet import free_motions
 from solver.mesh.thickness import thickness_barriers
+from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
 
 _FREE_PARTS = (0.5, 0.25, 0.1, 0.03, 0.01, 0.0)
 """Of the prestrain: where to begin, the largest that will do."""
+_FREE_PARTS_OF_MANY = (0.1, 0.03, 0.01, 0.0)
+"""The same where loops act on each other and soon meet: what meets itself takes long to solve."""
 _RAISES = 4
 """Steps from there to the whole prestrain."""
 _ON_THE_WAY = SearchLimits(decrease=1e-4, steps=100)
@@ -54,12 +57,18 @@ def _energy(problem: MeshProblem, diameter: float, strain: float) -> ContactEner
     return ContactEnergy(problem.energy(last), barriers)
 
 
+def _free_parts(scene: MeshScene, largest: float) -> list[float]:
+    """Parts of the prestrain at which to look for a shape that comes nowhere near itself."""
+    parts = _FREE_PARTS if isinstance(scene, LoopScene) else _FREE_PARTS_OF_MANY
+    return [part for part in parts if part <= largest]
+
+
 def _free_shape(
-    scene: MeshScene, energy: ContactEnergy, refinement: int, *, field: bool
+    scene: MeshScene, energy: ContactEnergy, refinement: int, largest: float, *, field: bool
 ) -> tuple[float, Vectors]:
-    """Give a prestrain at which the shape keeps its thickness, and the positions (n, 3) there."""
+    """Give a part of the prestrain at which the shape keeps its thickness, and its positions."""
     strain = fabric_of(scene).strain
-    for part in _FREE_PARTS:
+    for part in _free_parts(scene, largest):
         found = solve_on_mesh(
             with_strain(scene, part * strain),
             refinement,
@@ -68,7 +77,7 @@ def _free_shape(
         )
         clear = math.isfinite(energy.value(found.positions))
         if clear and found.distances.crossings == 0:
-            return part * strain, found.positions
+            return part, found.positions
     raise NotConvergedError(
         "contact: the shape meets itself at every prestrain; take a thinner wire or larger loops"
     )
@@ -87,7 +96,7 @@ def _raised(
 
 
 def _contact_account(
-    energy: ContactEnergy, found: MeshEquilibrium, before: SelfContact | None
+    energy: ContactEnergy, found: MeshEquilibrium, before: SelfContact | None, begun_at: float
 ) -> ContactAccount:
     forces = np.linalg.norm(energy.forces(found.positions), axis=1)
     return ContactAccount(
@@ -95,6 +104,7 @@ def _contact_account(
         before=before,
         touching=energy.touching(found.positions),
         largest_force=float(forces.max()),
+        begun_at=begun_at,
         energy_share=found.energy_terms[CONTACT_TERM] / found.energy,
     )
 
@@ -108,6 +118,7 @@ def solve_in_contact(
     most_steps: int = 500,
     allow_unreliable: bool = False,
     before: SelfContact | None = None,
+    largest_part: float = 1.0,
 ) -> MeshEquilibrium:
     """Find a minimum whose wires and fabric keep apart; see `solver.mesh.solve` for the options.
 
@@ -115,6 +126,8 @@ def solve_in_contact(
     ----------
     before : SelfContact, optional
         How near the shape comes to itself without contact, in the scene's unit, for the account.
+    largest_part : float
+        Of the prestrain, at which to begin: a coarser mesh tells it in its account.
 
     Raises
     ------
@@ -130,9 +143,9 @@ def solve_in_contact(
     problem = _problem(scene, refinement, field=tension_field)
     mass = mass_of(problem.meshes[-1])
     energy = _energy(problem, diameter, whole)
-    strain, positions = _free_shape(scene, energy, refinement, field=tension_field)
+    part, positions = _free_shape(scene, energy, refinement, largest_part, field=tension_field)
     solved: list[Solved] = []
-    for between in np.linspace(strain, whole, _RAISES + 1)[1:-1]:
+    for between in np.linspace(part * whole, whole, _RAISES + 1)[1:-1]:
         partial = _energy(replace(problem, strain=float(between)), diameter, whole)
         limits = replace(_ON_THE_WAY, steady=tension_field)
         solved.append(_raised(partial, positions, mass, limits, backend))
@@ -144,7 +157,7 @@ def solve_in_contact(
         found,
         steps=sum(s.minimum.steps for s in solved),
         factorizations=sum(s.minimum.factorizations for s in solved),
-        contact=_contact_account(energy, found, before),
+        contact=_contact_account(energy, found, before, part),
     )
     if not isinstance(asked, SheetScene):
         return found

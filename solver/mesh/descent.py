@@ -24,6 +24,9 @@ Vectors = NDArray[np.float64]
 _SOFT_WIRE = 30.0
 _NEARLY = 1e-6
 """Part of the energy that a coarse mesh's shape may lack: it is only where the next one starts."""
+_MANY_WIRES = 9
+_NEAR = 1e-2
+"""Part of the energy that is left to gain when a finer mesh has lost its kinks."""
 _SMALLEST_GRADIENT = 1e-8
 _LIMP_FABRIC = 1e-3
 """α with which a finer mesh loses the kinks that linear interpolation leaves in it.
@@ -80,6 +83,19 @@ def nearly_solved(problem: MeshProblem, level: int, start: Vectors, backend: str
     return solved_on(problem, level, start, backend, SearchLimits(decrease=_NEARLY))
 
 
+def _led_on(
+    problem: MeshProblem, level: int, start: Vectors, backend: str | None, limits: SearchLimits
+) -> list[Solved]:
+    """Follow on a finer mesh, with wires that may stretch a little, the valleys of a large array.
+
+    Finer meshes of many loops have softer motions, on which stiff wires spend many short steps.
+    First those wires take out the kinks that interpolation leaves: softer ones would spread them.
+    """
+    smooth = solved_on(problem, level, start, backend, replace(limits, decrease=_NEAR))
+    soft = roughly_solved(problem, level, smooth.minimum.positions, backend, _NEARLY)
+    return [smooth, soft]
+
+
 def descend(
     problem: MeshProblem, first: int, start: Vectors, backend: str | None, most_steps: int
 ) -> list[Solved]:
@@ -90,6 +106,9 @@ def descend(
     for k in range(first, len(meshes)):
         if k > first:
             start = prolonged(meshes[k - 1], meshes[k], found[-1].minimum.positions)
+            if len(problem.wires) >= _MANY_WIRES:
+                found += _led_on(problem, k, start, backend, limits)
+                start = found[-1].minimum.positions
             if problem.alpha > _LIMP_FABRIC:
                 limp = replace(problem, alpha=_LIMP_FABRIC)
                 found.append(

@@ -31,6 +31,8 @@ class ContactAccount:
         On any vertex, in units of E_f t R.
     energy_share : float
         Of the barriers in the energy.
+    begun_at : float
+        Part of the prestrain from which the shape was followed.
     """
 
     wire_diameter: float
@@ -38,6 +40,7 @@ class ContactAccount:
     touching: int
     largest_force: float
     energy_share: float
+    begun_at: float
 
 
 @dataclass(frozen=True)

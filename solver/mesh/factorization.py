@@ -63,7 +63,7 @@ class Feral:
 
     def __init__(self, pattern: LowerPattern) -> None:
         feral: Any = importlib.import_module("feral")
-        self._solver: Any = feral.Solver(parallel=False, ordering="amd")
+        self._solver: Any = feral.Solver(parallel=False, ordering="amf")
         self._matrix: Any = feral.CscMatrix.from_triplet(
             pattern.size, pattern.rows, pattern.columns, np.ones(len(pattern.rows))
         )

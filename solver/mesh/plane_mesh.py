@@ -64,18 +64,31 @@ def _named(chains: Chains, found: tuple[Face, ...], where: tuple[Point, ...]) ->
     return named
 
 
-def _has_fabric(chains: Chains, face: Face, outlines: int, regions: FabricRegions) -> bool:
-    middle = inner_point(chains.points, face)
-    around = chains.wires[len(chains.wires) - outlines :]
-    bounded = any(np.isin(face.outline, border.vertices).any() for border in around)
-    loops = [
-        spanned
-        for wire, spanned in zip(chains.wires, regions.spanned, strict=False)
-        if wire.closed and contains(chains.points, wire.edges, middle)[0]
-    ]
-    if not loops:
-        return bounded or regions.between is Between.KEPT
-    return any(loops)
+@dataclass(frozen=True)
+class _Enclosures:
+    """Closed wires, whether fabric spans each, and the corners of the boxes about them (w, 2)."""
+
+    edges: tuple[Indices, ...]
+    spanned: tuple[bool, ...]
+    low: Vectors
+    high: Vectors
+
+    def about(self, points: Vectors, where: Vectors) -> list[bool]:
+        """Whether fabric spans each of the wires that go round a point (1, 2)."""
+        near = np.flatnonzero(((self.low <= where) & (where <= self.high)).all(axis=1))
+        return [self.spanned[k] for k in near.tolist() if contains(points, self.edges[k], where)[0]]
+
+
+def _enclosures(chains: Chains, regions: FabricRegions) -> _Enclosures:
+    both = zip(chains.wires, regions.spanned, strict=False)
+    closed = [(wire, spanned) for wire, spanned in both if wire.closed]
+    around = [chains.points[wire.vertices] for wire, _ in closed]
+    return _Enclosures(
+        tuple(wire.edges for wire, _ in closed),
+        tuple(spanned for _, spanned in closed),
+        np.array([points.min(axis=0) for points in around]).reshape(-1, 2),
+        np.array([points.max(axis=0) for points in around]).reshape(-1, 2),
+    )
 
 
 def _wanted(chains: Chains, drawing: Drawing, regions: FabricRegions) -> list[Face]:
@@ -84,10 +97,18 @@ def _wanted(chains: Chains, drawing: Drawing, regions: FabricRegions) -> list[Fa
     kept, cut = (_named(chains, found, where) for where in (regions.kept, regions.cut))
     if kept & cut:
         raise SceneError("a region is both kept and cut")
+    around = chains.wires[len(chains.wires) - drawing.outlines :]
+    enclosures = _enclosures(chains, regions)
+
+    def has_fabric(face: Face) -> bool:
+        loops = enclosures.about(chains.points, inner_point(chains.points, face))
+        if loops:
+            return any(loops)
+        bounded = any(np.isin(face.outline, border.vertices).any() for border in around)
+        return bounded or regions.between is Between.KEPT
+
     return [
-        face
-        for k, face in enumerate(found)
-        if k in kept or (k not in cut and _has_fabric(chains, face, drawing.outlines, regions))
+        face for k, face in enumerate(found) if k in kept or (k not in cut and has_fabric(face))
     ]
 
 

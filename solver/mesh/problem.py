@@ -28,7 +28,7 @@ from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
 
-LARGEST_REFINEMENT = 6
+LARGEST_REFINEMENT = 7
 FEWEST_SEGMENTS = 12
 MOST_SEGMENTS = 80
 _LEVELLING = 1e-4

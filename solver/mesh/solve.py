@@ -50,7 +50,7 @@ def solve_loop_mesh(
     Parameters
     ----------
     refinement : int
-        0 to 6; the error falls by 4 with each.
+        0 to 7; the error falls by 4 with each.
     segments : int
         Triangles of the fan, and the wire's edges round it, before they are split: a multiple of 4.
     start : array (n, 3), optional

@@ -61,7 +61,7 @@ def solve_sheet(
     Parameters
     ----------
     refinement : int
-        0 to 6.
+        0 to 7.
     segments : int
         Edges of a loop of mean size on the unrefined mesh, 12 to 80.
     starts : int

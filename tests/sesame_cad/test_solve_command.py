@@ -137,3 +137,19 @@ def test_bending_of_the_fabric_and_twist_of_the_wire():
 def test_stiffnesses_that_cannot_be(arguments, named, faults_of_command):
     (fault,) = faults_of_command([*LOOP, *arguments])
     assert named in fault
+
+
+def test_contact_is_left_out_on_demand():
+    arguments = ("--loops", "2x2", "--between", "kept", "--contact", "off", "--tolerance", "0.5")
+    data = json.loads(_run(*arguments, "--json").stdout)
+    assert "contact was left out, as asked" in data["reason"]
+    (left,) = (o for o in data["omitted_terms"] if o["term"].startswith("contact"))
+    assert left["matters"]
+    assert left["value"] > 0
+    assert data["contact"] is None
+
+
+def test_arrays_too_large_for_contact_name_the_remedy():
+    result = _run("--loops", "10x10", "--between", "kept")
+    assert result.exit_code == 1
+    assert "--contact off" in result.stderr

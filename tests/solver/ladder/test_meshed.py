@@ -4,8 +4,9 @@ import pytest
 
 from solver.checks import CONTACT, TWIST
 from solver.errors import NotConvergedError
-from solver.ladder import meshed
+from solver.ladder import contact, meshed
 from solver.ladder.choose import solve_scene
+from solver.ladder.contact import ContactChoice
 from solver.ladder.fidelity import Fidelity
 from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene
@@ -15,23 +16,67 @@ CLOSED = LoopScene(2.0, 0.0145, 0.3)
 
 
 def test_without_the_library_the_remedy_is_told(monkeypatch):
-    monkeypatch.setattr(meshed, "contact_available", lambda: False)
+    monkeypatch.setattr(contact, "contact_available", lambda: False)
     with pytest.raises(NotConvergedError, match=r"pip install 'sesame-cad\[contact\]'"):
         solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5)
 
 
 def test_a_mesh_too_large_for_contact_is_told(monkeypatch):
-    monkeypatch.setattr(meshed, "LARGEST_IN_CONTACT", 100)
+    monkeypatch.setattr(contact, "LARGEST_IN_CONTACT", 100)
     with pytest.raises(NotConvergedError, match="up to 100 triangles"):
         solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5)
 
 
 def test_who_asks_for_the_shape_nevertheless_is_told_what_it_lacks(monkeypatch):
-    monkeypatch.setattr(meshed, "contact_available", lambda: False)
+    monkeypatch.setattr(contact, "contact_available", lambda: False)
     crossed = solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5, allow_unreliable=True)
-    (contact,) = (left for left in crossed.omitted if left.term == CONTACT)
-    assert contact.fatal
-    assert contact.value == crossed.equilibrium.distances.crossings > 0
+    (left_out,) = (left for left in crossed.omitted if left.term == CONTACT)
+    assert left_out.fatal
+    assert left_out.value == crossed.equilibrium.distances.crossings > 0
+
+
+def test_contact_is_left_out_on_demand_and_told():
+    array = ArrayScene(LoopScene(0.3, 0.0145, 0.3), 2, 2, Between.KEPT)
+    answer = solve_scene(array, tolerance=0.5, contact=ContactChoice.OFF)
+    found = answer.equilibrium
+    assert found.status == "converged"
+    assert found.contact is None
+    assert found.distances.crossings > 0
+    told = f"as asked: the shape passes through itself, at {found.distances.crossings} pairs"
+    assert told in answer.reason
+    (left_out,) = (left for left in answer.omitted if left.term == CONTACT)
+    assert left_out.matters
+    assert left_out.value == found.distances.crossings
+    assert "contact" not in answer.terms
+
+
+def test_leaving_contact_out_does_not_excuse_another_fault():
+    array = ArrayScene(LoopScene(0.3, 0.0145, 0.3), 1, 2, Between.KEPT)
+    with pytest.raises(NotConvergedError, match="tolerance"):
+        solve_scene(array, tolerance=1e-8, contact=ContactChoice.OFF)
+
+
+def _refusing_all_but_a_corner(monkeypatch):
+    solve = meshed.solve_on_mesh
+
+    def refusing(scene, refinement, **options):
+        assert scene.rows * scene.columns <= 4
+        return solve(scene, refinement, **options)
+
+    monkeypatch.setattr(meshed, "solve_on_mesh", refusing)
+
+
+def test_arrays_too_large_for_contact_are_refused_before_they_are_solved(monkeypatch):
+    _refusing_all_but_a_corner(monkeypatch)
+    array = ArrayScene(LoopScene(0.3, 0.0145, 0.3), 10, 10, Between.KEPT)
+    with pytest.raises(NotConvergedError, match=r"14480 triangles .*--contact off"):
+        solve_scene(array)
+
+
+def test_large_arrays_of_which_no_corner_meets_itself_are_solved(monkeypatch):
+    _refusing_all_but_a_corner(monkeypatch)
+    with pytest.raises(AssertionError):
+        solve_scene(ArrayScene(LoopScene(0.05, 0.0145, 0.3), 10, 10, Between.KEPT))
 
 
 def test_a_loop_that_meets_itself_in_the_smooth_basis_is_refused_there():

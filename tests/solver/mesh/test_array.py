@@ -83,3 +83,14 @@ def test_scenes_out_of_range_are_refused():
         ArrayScene(LOOP, 1, 2, Between.CUT, wires=(WireStiffness(0.1, 1.0),))
     with pytest.raises(SceneError, match="greater than 0"):
         ArrayScene(LOOP, 1, 1, Between.CUT, wires=(WireStiffness(-0.1, 1.0),))
+
+
+@pytest.mark.parametrize("segments", [8, 28])
+def test_segments_are_the_edges_of_a_loop_and_its_triangles(segments):
+    found = solve_array(
+        ArrayScene(LOOP, 1, 2, Between.CUT), refinement=0, segments=segments, most_steps=200
+    )
+    assert [len(wire.edges) for wire in found.mesh.wires] == [segments] * 2
+    assert len(found.mesh.triangles) == 2 * segments
+    alone = solve_loop_mesh(LOOP, refinement=0, segments=segments)
+    assert found.energy == pytest.approx(2 * alone.energy, rel=1e-5)

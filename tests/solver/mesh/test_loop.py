@@ -168,7 +168,7 @@ def test_not_converged_raises_with_a_remedy():
 
 def test_refinement_is_limited():
     with pytest.raises(SceneError, match="refinement"):
-        solve_loop_mesh(SCENE, refinement=7)
+        solve_loop_mesh(SCENE, refinement=8)
 
 
 @pytest.mark.parametrize("start", [np.zeros((20, 3)), np.full((201, 3), np.nan)])

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from solver.mesh.krylov import (
     symmetric_product,
     trust_region_step,
 )
-from solver.mesh.newton_sparse import minimise_sparse
+from solver.mesh.newton_sparse import _stalled, minimise_sparse
 from solver.mesh.problem import loop_problem
 from solver.mesh.rigid import lowest_eigenvalue, rigid_motions
 from solver.mesh.search import SearchLimits
@@ -177,3 +178,37 @@ def test_lowest_eigenvalue_against_dense():
     value = lowest_eigenvalue(hessian, found.factored, found.positions, mass_of(mesh))
     assert exact > 0.1
     assert value == pytest.approx(exact, rel=1e-2)
+
+
+def test_a_small_gradient_is_no_minimum_while_the_energy_would_still_fall():
+    """The Newton decrement: soft motions have small gradients and much to gain."""
+    tight = _solved()
+    loose = _solved(SearchLimits(gradient=1.0))
+    assert loose.converged
+    assert loose.value - tight.value <= 2e-10 * tight.value
+
+
+def _search(values, **limits):
+    return SimpleNamespace(
+        limits=SearchLimits(**limits), account=SimpleNamespace(values=list(values))
+    )
+
+
+@pytest.mark.parametrize(
+    ("gain", "steps", "gradient", "steady", "stalled"),
+    [
+        (0.0, 11, 1e-9, False, True),  # ten steps gain nothing
+        (0.0, 10, 1e-9, False, False),  # too few of them
+        (1e-9, 11, 1e-9, False, False),  # they gain more than rounding
+        (0.0, 11, 1e-6, False, False),  # something still pulls
+        (1e-8, 11, 1e-6, True, True),  # wrinkled fabric may leave a millionth
+        (1e-6, 11, 1e-6, True, False),
+        (1e-8, 11, 1e-3, True, False),
+    ],
+)
+def test_a_search_stalls_when_many_steps_in_a_row_gain_next_to_nothing(
+    gain, steps, gradient, steady, stalled
+):
+    values = 1.0 - gain * np.arange(steps)
+    state = SimpleNamespace(value=float(values[-1]), gradient_norm=gradient)
+    assert bool(_stalled(_search(values, gradient=1e-8, steady=steady), state)) is stalled
