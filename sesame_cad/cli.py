@@ -18,6 +18,7 @@ COMMANDS = MappingProxyType(
         "design": "Make the fabrication package of an array.",
         "check": "Read a design back from disk and verify every file.",
         "solve": "Solve one dimensionless loop.",
+        "sweep": "Solve a grid of loops or of designs: table and phase diagram.",
         "export-evolver": "Write a loop as a datafile of Surface Evolver.",
         "machines": "List machine profiles, or print one to start your own from.",
         "coupon": "Make a coupon to find the settings for your wire.",
