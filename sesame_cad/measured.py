@@ -33,7 +33,7 @@ FIG_2_POINTS = (
 
 TABLE_1_POINTS = (
     FigurePoint(0.01454, 0.3, "D", "#E69F00", "devices by Table I, cold: β = 0.0145"),
-    FigurePoint(0.03895, 0.3, "D", "#CC3311", "devices by Table I, hot: β = 0.0390"),
+    FigurePoint(0.03896, 0.3, "D", "#CC3311", "devices by Table I, hot: β = 0.0390"),
 )
 """β = E_w I_w/(2 E_f t R³) of the large array at 28 and 75 GPa; the small one's is 4 % greater."""
 
