@@ -5,9 +5,11 @@ import pytest
 
 from solver.compact import solve_loop
 from solver.errors import SceneError
+from solver.held import Pitch, solve_at_pitch
 from solver.reading import Reading, density_coefficients, density_slopes
 from solver.scene import LoopScene
 from solver.sensitivity import PARAMETERS, sensitivities
+from solver.sensitivity_held import PITCH, force_sensitivities
 
 SCENES = [
     LoopScene(0.3, 0.0145, 0.45),
@@ -65,3 +67,32 @@ def test_other_loops_are_refused():
     found = solve_loop(LoopScene(0.3, 0.02, 0.3, axis_ratio=1.3), allow_unreliable=True)
     with pytest.raises(SceneError, match="axis_ratio"):
         sensitivities(found)
+
+
+HELD = LoopScene(0.3, 0.03896, 0.45, axial_stiffness=3116)
+
+
+@pytest.mark.parametrize("key", [*PARAMETERS, PITCH])
+def test_force_as_differences(key):
+    found = solve_at_pitch(HELD, Pitch(1.357))
+    told = force_sensitivities(found)
+    forces = []
+    for s in (1, -1):
+        if key == PITCH:
+            other = solve_at_pitch(HELD, Pitch(1.357 + s * 1e-4))
+            step = 1e-4
+        else:
+            step = 1e-4 * getattr(HELD, key)
+            scene = replace(HELD, **{key: getattr(HELD, key) + s * step})
+            other = solve_at_pitch(scene, Pitch(1.357))
+        assert other.degree == found.degree
+        forces.append(other.force)
+    assert told[key] == pytest.approx((forces[0] - forces[1]) / (2 * step), rel=1e-4)
+    if key == PITCH:
+        assert told[key] < 0
+
+
+def test_only_loops_at_a_pitch_have_such_a_force():
+    found = solve_at_pitch(HELD, Pitch(1.5, width=1.4), allow_unreliable=True)
+    with pytest.raises(SceneError, match="held at a pitch alone"):
+        force_sensitivities(found)
