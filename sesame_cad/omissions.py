@@ -15,9 +15,9 @@ SMALL = 0.01
 """A neglected term below a hundredth of what is kept is not worth a warning."""
 
 
-def loop_mass_kg(spec: Specification) -> float:
-    """Mass of one loop of wire and the fabric in it."""
-    radius_m = spec.layout.diameter_mm / 2e3
+def loop_mass_kg(spec: Specification, radius_mm: float | None = None) -> float:
+    """Mass of one loop of wire and the fabric in it; of the design's own radius or another."""
+    radius_m = (spec.layout.diameter_mm / 2 if radius_mm is None else radius_mm) / 1e3
     wire_area_m2 = math.pi * (spec.wire.diameter_mm / 2e3) ** 2
     wire_kg = 2 * math.pi * radius_m * wire_area_m2 * spec.wire.density_g_cm3 * 1e3
     unstretched_m2 = math.pi * (radius_m / (1 + spec.fabric.prestrain)) ** 2

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
 
 from solver.disc_basis import DiscBasis, disc_basis, jet_map
 from solver.fabric_bending import finest_wrinkle, gauss_integral
@@ -38,7 +41,8 @@ _FABRIC_GRID = np.linspace(0, 0.95, 20), np.linspace(0, 2 * np.pi, 96, endpoint=
 _FABRIC_NEAR = 0.3
 """Over the smaller half-width of the flat loop."""
 
-_NEAR_CRESTS = 0.3
+NEAR_CRESTS = 0.3
+"""Distance in units of R of wires across the loop, below which fabric may come near a wire."""
 
 SMALLEST_TWIST = 1e-4
 """Share of the energy from which twist that was left out is told of."""
@@ -106,28 +110,41 @@ def smallest_wire_gap(shape: LoopShape) -> float:
     return float(np.linalg.norm(edge[:, None] - other, axis=2).min())
 
 
+@lru_cache(maxsize=16)
+def _far_when_flat(semi_axes: tuple[float, float]) -> NDArray[np.bool_]:
+    """Which points of the fabric (G,) and of the wire (E,) lie apart when the loop is flat."""
+    radius, angle = _fabric_points()
+    flat, flat_edge = (
+        np.stack([r * np.cos(t), r * np.sin(t)], axis=-1) * semi_axes
+        for r, t in ((radius, angle), (np.ones(EDGE_POINTS), _edge_angles()))
+    )
+    return np.asarray(cdist(flat, flat_edge) > _FABRIC_NEAR * min(semi_axes))
+
+
+def _fabric_points() -> tuple[Vectors, Vectors]:
+    radius, angle = np.meshgrid(*_FABRIC_GRID)
+    return radius.ravel(), angle.ravel()
+
+
+def _edge_angles() -> Vectors:
+    return np.arange(EDGE_POINTS, dtype=np.float64) * (2 * np.pi / EDGE_POINTS)
+
+
 def smallest_fabric_gap(scene: LoopScene, shape: LoopShape) -> float:
     """Smallest distance of the wire's centreline and the fabric, in units of R, by sampling.
 
     Fabric that lies near a point of the wire when flat is left out.
     """
-    radius, angle = np.meshgrid(*_FABRIC_GRID)
-    edge_angle = np.arange(EDGE_POINTS) * (2 * np.pi / EDGE_POINTS)
-    flat, flat_edge = (
-        np.stack([r * np.cos(t), r * np.sin(t)], axis=-1).reshape(-1, 2) * scene.semi_axes
-        for r, t in ((radius, angle), (np.ones(EDGE_POINTS), edge_angle))
-    )
-    fabric = shape.position(radius.ravel(), angle.ravel())
-    apart = np.linalg.norm(flat[:, None] - flat_edge, axis=2)
-    now = np.linalg.norm(fabric[:, None] - shape.edge(EDGE_POINTS), axis=2)
-    return float(now[apart > _FABRIC_NEAR * min(scene.semi_axes)].min())
+    fabric = shape.position(*_fabric_points())
+    now = cdist(fabric, shape.edge(EDGE_POINTS))
+    return float(now[_far_when_flat(scene.semi_axes)].min())
 
 
 def _contact(scene: LoopScene, shape: LoopShape) -> OmittedTerm:
     """Compare distances across the loop with the thickness of its wire."""
     thick, gap = wire_diameter(scene), smallest_wire_gap(shape)
     # fabric hangs between the crests: only where they are near can it come near the wire
-    if 0 < gap < _NEAR_CRESTS:
+    if 0 < gap < NEAR_CRESTS:
         gap = min(gap, 2 * smallest_fabric_gap(scene, shape))
     return OmittedTerm(
         CONTACT,
@@ -136,6 +153,11 @@ def _contact(scene: LoopScene, shape: LoopShape) -> OmittedTerm:
         matters=gap < 2 * thick,
         fatal=gap <= thick,
     )
+
+
+def meets_itself(scene: LoopScene, shape: LoopShape) -> bool:
+    """Whether a loop's wire touches itself or its fabric, or has passed through."""
+    return _contact(scene, shape).fatal
 
 
 def writhe(points: Vectors) -> float:

@@ -49,15 +49,22 @@ def _upright(refined: Refined) -> Refined:
     return refined.with_unknowns(sign * refined.unknowns, -refined.height)
 
 
-def saddle_circle(scene: LoopScene, tolerance: float, start: Equilibrium | None) -> Refined:
+def saddle_circle(
+    scene: LoopScene,
+    tolerance: float,
+    start: Equilibrium | None,
+    highest_degree: int = DEGREES[-1],
+) -> Refined:
     """Solve for the saddle, from a neighbouring one if there is one."""
+    degrees = tuple(degree for degree in DEGREES if degree <= highest_degree)
     if start is not None and start.kind is Kind.SADDLE:
         guess = disc_basis(start.degree, "saddle"), start.shape.coefficients
-        first = max(0, DEGREES.index(start.degree) - 1)
-        refined = refine(scene, "saddle", guess, tolerance, DEGREES[first:], solved=True)
+        first = max(0, min(DEGREES.index(start.degree), len(degrees) - 1) - 1)
+        refined = refine(scene, "saddle", guess, tolerance, degrees[first:], solved=True)
         return _upright(refined)
     guess = saddle_family().nearest(scene_weights(scene))
-    return _upright(refine(scene, "saddle", (disc_basis(GUESS_DEGREE, "saddle"), guess), tolerance))
+    first_guess = disc_basis(GUESS_DEGREE, "saddle"), guess
+    return _upright(refine(scene, "saddle", first_guess, tolerance, degrees))
 
 
 def telling_degree(scene: LoopScene, stress: float, degree: int) -> int:

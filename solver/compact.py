@@ -33,6 +33,7 @@ def solve_loop(
     tolerance: float = 1e-4,
     allow_unreliable: bool = False,
     start: Equilibrium | None = None,
+    highest_degree: int = DEGREES[-1],
 ) -> Equilibrium:
     """Find the minimum of one loop's energy.
 
@@ -45,6 +46,8 @@ def solve_loop(
     start : Equilibrium, optional
         That of a neighbouring scene, from which a circular loop on isotropic fabric is solved in
         less time.
+    highest_degree : int
+        Of the bases that are tried on a circular loop on isotropic fabric, one of `DEGREES`.
 
     Raises
     ------
@@ -53,7 +56,7 @@ def solve_loop(
         the wire runs through itself. Lesser omissions are told in `Equilibrium.omitted`.
     """
     if scene.isotropic_circle:
-        found = _circle(scene, tolerance, start)
+        found = _circle(scene, tolerance, start, highest_degree)
     else:
         found = _lowest_of_branches(scene, tolerance)
     if found.status != "converged" and not allow_unreliable:
@@ -61,9 +64,13 @@ def solve_loop(
     return found
 
 
-def _circle(scene: LoopScene, tolerance: float, start: Equilibrium | None) -> Equilibrium:
-    flat = stays_flat(scene)
-    refined = flat_circle(scene) if flat else saddle_circle(scene, tolerance, start)
+def _circle(
+    scene: LoopScene, tolerance: float, start: Equilibrium | None, highest_degree: int
+) -> Equilibrium:
+    if stays_flat(scene):
+        refined = flat_circle(scene)
+    else:
+        refined = saddle_circle(scene, tolerance, start, highest_degree)
     basis, q = refined.basis, refined.unknowns
     stress = smallest_principal_stress(scene_membrane(scene), basis.gradient @ q)
     highest = telling_degree(scene, stress, basis.degree)

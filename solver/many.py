@@ -14,14 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from solver.batch import Indices, LoopBatch
 from solver.branches import stability_floor
-from solver.checks import smallest_principal_stress
+from solver.checks import CONTACT, smallest_principal_stress
 from solver.circle import stays_flat, telling_degree
-from solver.compact import solve_loop
+from solver.compact import DEGREES, solve_loop
 from solver.disc_basis import DiscBasis, disc_basis, transfer
 from solver.disc_functions import DiscFunction
 from solver.first_guess import GUESS_DEGREE, energy_weights, saddle_family
 from solver.flat import flat_radius
 from solver.loop_energy import scene_membrane
+from solver.meeting import meeting
 from solver.reading import Reading
 from solver.saddle_rows import crest_distance, crest_less_valley
 from solver.scene import LoopScene
@@ -59,6 +60,9 @@ class Equilibria:
         Smallest principal stress of the fabric, in units of E_f; slack where it is negative.
     lowest_eigenvalue : array
         Of the second variation among all smooth shapes, free motions taken out.
+    meets : array of bool
+        Where the wire touches itself across the loop, or has passed through itself: a shape that
+        no real loop has.
     """
 
     status: NDArray[np.object_]
@@ -68,6 +72,7 @@ class Equilibria:
     energy: Vectors
     smallest_stress: Vectors
     lowest_eigenvalue: Vectors
+    meets: Flags
 
     @property
     def slack(self) -> Flags:
@@ -92,8 +97,15 @@ def solve_many(
     axial_stiffness: ArrayLike = 1000.0,
     *,
     tolerance: float = 1e-3,
+    highest_degree: int = DEGREES[-1],
 ) -> Equilibria:
     """Find the minima of many loops; the parameters are those of `LoopScene`, and broadcast.
+
+    Parameters
+    ----------
+    highest_degree : int
+        Of the bases that are tried on loops that are solved alone, as slack ones are: each may
+        take a second in the largest. Where that is too low the status says so.
 
     Raises
     ------
@@ -108,7 +120,7 @@ def solve_many(
         for e, b, nu, k in zip(*(values.ravel().tolist() for values in listed), strict=True)
     ]
     flat = np.array([stays_flat(scene) for scene in scenes], dtype=bool)
-    table = _Table(scenes, tolerance)
+    table = _Table(scenes, tolerance, highest_degree)
     table.fill(_flat_states(scenes, np.flatnonzero(flat)))
     for solved in _saddles(scenes, np.flatnonzero(~flat), tolerance):
         table.fill(solved)
@@ -186,12 +198,14 @@ def _settle_group(batch: LoopBatch, basis: DiscBasis, q: Vectors) -> tuple[Vecto
 class _Table:
     """Results by loop, filled as they come."""
 
-    def __init__(self, scenes: Sequence[LoopScene], tolerance: float) -> None:
+    def __init__(self, scenes: Sequence[LoopScene], tolerance: float, highest_degree: int) -> None:
         count = len(scenes)
+        self._highest_degree = highest_degree
         self._scenes, self._tolerance = scenes, tolerance
         self._settled = np.zeros(count, dtype=bool)
         self._status = np.full(count, "converged", dtype=object)
         self._numbers = np.full((5, count), np.nan)
+        self._meets = np.zeros(count, dtype=bool)
 
     def fill(self, solved: _Solved) -> None:
         """Enter shapes that are minima; leave out those of which that is not sure."""
@@ -215,17 +229,22 @@ class _Table:
         good = (stiffness >= -floor) & (width > 0) & np.isfinite(energy)
         numbers = np.stack([height / (2 * np.pi), width, energy, stress, stiffness])
         self._numbers[:, index[good]] = numbers[:, good]
+        self._meets[index[good]] = meeting(scenes, basis, q, width)[good]
         self._settled[index[good]] = True
 
     def solve_the_rest_alone(self) -> None:
         """Solve what is still open one by one; a shape that is no minimum says so."""
         for index in np.flatnonzero(~self._settled).tolist():
             found = solve_loop(
-                self._scenes[index], tolerance=self._tolerance, allow_unreliable=True
+                self._scenes[index],
+                tolerance=self._tolerance,
+                allow_unreliable=True,
+                highest_degree=self._highest_degree,
             )
             basis = disc_basis(found.degree, "saddle")
             gradient = basis.gradient @ found.shape.coefficients
             self._status[index] = found.status
+            self._meets[index] = any(left.term == CONTACT and left.fatal for left in found.omitted)
             self._numbers[:, index] = (
                 found.shape.height_over_perimeter,
                 found.shape.width,
@@ -238,5 +257,12 @@ class _Table:
         """Give the results in the shape of the parameters."""
         height, width, energy, stress, stiffness = self._numbers.reshape(5, *shape)
         return Equilibria(
-            self._status.reshape(shape), height != 0, height, width, energy, stress, stiffness
+            self._status.reshape(shape),
+            height != 0,
+            height,
+            width,
+            energy,
+            stress,
+            stiffness,
+            self._meets.reshape(shape),
         )

@@ -6,7 +6,7 @@ Lengths are in units of the loop radius R, energies in units of E_f t R².
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,11 @@ class LoopMaterials:
         """β = E_w I_w / (2 E_f t R³) with I_w = π r_w⁴/4 (Eq. 4 of the SESAME paper, L = R)."""
         second_moment = math.pi * (self.wire_diameter_m / 2) ** 4 / 4
         return self.wire_modulus_Pa * second_moment / (2 * self.energy_unit_J * self.loop_radius_m)
+
+    def radius_of_beta(self, beta: float) -> float:
+        """Radius in m of the loop of these materials that has that β; the loop's own has no say."""
+        at_one_metre = replace(self, loop_radius_m=1.0).beta
+        return (at_one_metre / beta) ** (1 / 3)
 
     @property
     def axial_stiffness(self) -> float:

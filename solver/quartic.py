@@ -63,13 +63,20 @@ def _cauchy_green(left: Vectors, right: Vectors) -> Vectors:
 
 
 def _symmetric(own: Vectors, cross: Vectors, other: Vectors, weight: Vectors) -> Vectors:
-    """Symmetric tensor (m, m, n, n) of ∫ D·D from D (P, d, m, m), (P, d, m, n) and (P, d, n, n)."""
+    """Symmetric tensor of ∫ D·D from D (P, d, m, m), (P, d, m, n) and (P, d, n, n), by pairs.
+
+    Rows are the pairs i ≤ j of motions, columns the pairs k ≤ l of shapes.
+    """
     m, n = cross.shape[-2:]
-    weighted = weight[:, None, None, None]
-    straight = own.reshape(-1, m * m).T @ (weighted * other).reshape(-1, n * n)
-    crossed = cross.reshape(-1, m * n).T @ (weighted * cross).reshape(-1, m * n)
-    crossed = crossed.reshape(m, n, m, n).transpose(0, 2, 1, 3)
-    return (straight.reshape(m, m, n, n) + crossed + crossed.transpose(0, 1, 3, 2)) / 3
+    (i, j), (first, second) = np.triu_indices(m), np.triu_indices(n)
+    weighted = weight[:, None, None]
+    listed = (weighted * other[..., first, second]).reshape(-1, len(first))
+    straight = own[..., i, j].reshape(-1, len(i)).T @ listed
+    scaled = (np.sqrt(weighted)[..., None] * cross).reshape(-1, m * n)
+    crossed = (scaled.T @ scaled).reshape(m, n, m, n)
+    left, right = i[:, None], j[:, None]
+    pairs = crossed[left, first, right, second] + crossed[left, second, right, first]
+    return (straight + pairs) / 3
 
 
 def tabulate(motions: Vectors, shapes: Vectors, area: Vectors) -> QuarticTable:
@@ -96,10 +103,7 @@ def tabulate(motions: Vectors, shapes: Vectors, area: Vectors) -> QuarticTable:
     unpack = np.zeros((m, m), dtype=np.intp)
     unpack[rows] = np.arange(len(rows[0]))
     unpack = np.maximum(unpack, unpack.T)
-    tensors = [
-        _symmetric(own, cross, other, area)[rows][:, first, second]
-        for own, cross, other in (pairs, traces)
-    ]
+    tensors = [_symmetric(own, cross, other, area) for own, cross, other in (pairs, traces)]
     return QuarticTable(
         first=first,
         second=second,

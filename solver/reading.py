@@ -47,3 +47,15 @@ def density_coefficients(poisson: float, reading: Reading) -> tuple[float, float
         return a, a * poisson / (1 - poisson)
     a = 1 / (1 + poisson)
     return a, a * poisson / (1 - 2 * poisson)
+
+
+def density_slopes(poisson: float, reading: Reading) -> tuple[float, float]:
+    """Derivatives of (a, b) by Poisson's ratio.
+
+    With a = 1/(c(1+ν)) and b = a ν/(1 − mν): a' = −c a², b' = a' ν/(1 − mν) + a/(1 − mν)², where
+    c = 2, m = 1 in plane stress, and c = 1, m = 2 in the published reading.
+    """
+    a, _ = density_coefficients(poisson, reading)
+    c, m = (2, 1) if reading is Reading.PLANE_STRESS else (1, 2)
+    by_a, room = -c * a**2, 1 - m * poisson
+    return by_a, by_a * poisson / room + a / room**2

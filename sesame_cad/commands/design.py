@@ -50,6 +50,11 @@ def _quantity_options(function: Callable[..., None]) -> Callable[..., None]:
     type=click.Path(path_type=Path),
     help="Picture (.svg or .png) to draw if the plan breaks design rules.",
 )
+@click.option(
+    "--tolerances",
+    is_flag=True,
+    help="Say what tolerances of moduli, strain and wire do to the height.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print design.json to stdout.")
 @click.option("--quiet", "-q", is_flag=True, help="Print nothing.")
 def command(
@@ -61,6 +66,7 @@ def command(
     formats: tuple[str, ...],
     output: Path | None,
     faults: Path | None,
+    tolerances: bool,
     as_json: bool,
     quiet: bool,
     **quantities: str | None,
@@ -92,6 +98,7 @@ def command(
     target = output or Path(specification.name)
     if faults is not None:
         check_picture_name(faults)
+    spread = _tolerances(specification) if tolerances else None
     try:
         with telling(quiet=quiet or as_json) as progress:
             data = write_package(specification, target, progress)
@@ -103,9 +110,14 @@ def command(
         click.echo(f"error: {specification.name}: {error}", err=True)
         raise click.exceptions.Exit(1) from None
     if as_json:
-        click.echo(json.dumps(data, indent=2, ensure_ascii=False))
+        shown = data if spread is None else {**data, "tolerances": spread}
+        click.echo(json.dumps(shown, indent=2, ensure_ascii=False))
     elif not quiet:
         (print_sleeves if "beams" in data else print_design)(data, target)
+        if spread is not None:
+            from sesame_cad.tolerances_summary import print_tolerances
+
+            print_tolerances(spread)
 
 
 def _quantities(given: dict[str, str | None]) -> dict[str, float]:

@@ -1,0 +1,1 @@
+"""One number varied, or several: what becomes of a loop or of a design over a whole grid."""
