@@ -136,10 +136,8 @@ class _Room:
         """The parts of both tails that no stitch holds: the first of one, the last of the other."""
         comes, goes = self._lines(place)
         free = min(FREE_TAIL_MM, self._tail_length_mm)
-        return [
-            substring(comes, 0.0, free),
-            substring(goes, goes.length - free, goes.length),
-        ]
+        parts = substring(comes, 0.0, free), substring(goes, goes.length - free, goes.length)
+        return [part for part in parts if isinstance(part, LineString)]
 
     def _clear_of_loops(self, tail: LineString, start: int, own: Indices) -> bool:
         reach = self._clear_mm + _CHORD_MM + self._longest_mm

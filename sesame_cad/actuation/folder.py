@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from sesame_cad.package import file_data
+from sesame_cad.package_files import file_data
 from sesame_cad.staging import staged_directory
 
 

@@ -120,6 +120,20 @@ def command(
             print_tolerances(spread)
 
 
+def _tolerances(specification: Any) -> dict[str, Any]:
+    """Reckon the heights' tolerances, before anything is written."""
+    from sesame_cad.tolerances import tolerances_data
+    from solver.errors import NotConvergedError, SceneError
+
+    try:
+        return tolerances_data(specification)
+    except SceneError as error:
+        raise InputError(f"{specification.name}: {error}") from None
+    except NotConvergedError as error:
+        click.echo(f"error: {specification.name}: {error}", err=True)
+        raise click.exceptions.Exit(1) from None
+
+
 def _quantities(given: dict[str, str | None]) -> dict[str, float]:
     """Read the options that carry units; all faults at once."""
     from sesame_cad.quantities import parse_quantity

@@ -10,7 +10,7 @@ from patterns.rivets import RivetHoles
 from sesame_cad.design_data import FORMAT_VERSION, circuit_data, machine_data, stitch_data
 from sesame_cad.electrics_data import circuits_data, electrics_data
 from sesame_cad.files.stitch_formats import LOSSES
-from sesame_cad.pipeline import Design, covered_crossings
+from sesame_cad.pipeline import Design
 from sesame_cad.sleeve.cutting import Cutting, Sheet
 from sesame_cad.sleeve.design import SleeveDesign
 from sesame_cad.sleeve.hold import Hold
@@ -51,10 +51,9 @@ def sleeve_design_data(design: SleeveDesign, files: dict[str, Data]) -> Data:
 def _hooping_data(design: SleeveDesign, name: str, made: Design) -> Data:
     """Keys of one layer: the same as those of an array."""
     spec, laid = design.spec, made.pattern
-    covered = covered_crossings(spec, laid)
     return {
-        "circuit": circuit_data(spec, laid, covered),
-        "circuits": circuits_data(spec, laid, covered),
+        "circuit": circuit_data(spec, laid),
+        "circuits": circuits_data(spec, laid),
         "electrics": _electrics_data(spec, made),
         "stitch": stitch_data(laid.plan, design.records[name])
         | machine_data(spec.machine, laid.plan),

@@ -34,6 +34,7 @@ from patterns.wire_index import WireIndex
 from sesame_cad.pipeline import (
     BrokenRulesError,
     Pattern,
+    covered_crossings,
     first_of_each_rule,
     net_of_stitches,
 )
@@ -85,8 +86,12 @@ def sleeve_pattern(spec: Specification) -> SleevePattern:
     upper = _sewn(spec, circuits[1], outlines[1], shared)
     ties = _ties(spec, circuits[0], laid, framed=spec.beam.frame_tabs)
     lower = replace(lower, plan=StitchPlan((*lower.plan.blocks, ties)))
+    judged = [(layer, layer_violations(spec, layer)) for layer in (lower, upper)]
+    lower, upper = (
+        replace(layer, covered=covered_crossings(layer.circuit, found)) for layer, found in judged
+    )
     made = SleevePattern(lower, upper, cut)
-    _check(spec, made)
+    _check(spec, made, *(found for _, found in judged))
     return made
 
 
@@ -124,7 +129,8 @@ def _sewn(
         spec.wire.diameter_mm,
         marks,
     )
-    return Pattern(circuit, outline, marks, plan, net_of_stitches(spec, circuit, plan))
+    net = net_of_stitches(spec, circuit, plan)
+    return Pattern(circuit, outline, marks, plan, net, covered=())
 
 
 def _ties(spec: Specification, circuit: Circuit, laid: LaidWire, *, framed: bool) -> Block:
@@ -148,14 +154,16 @@ def _ties(spec: Specification, circuit: Circuit, laid: LaidWire, *, framed: bool
     )
 
 
-def _check(spec: Specification, made: SleevePattern) -> None:
+def _check(
+    spec: Specification,
+    made: SleevePattern,
+    of_lower: tuple[Violation, ...],
+    of_upper: tuple[Violation, ...],
+) -> None:
     """Refuse what breaks a rule; the layer whose plan is at fault is shown."""
     for layer, found in (
-        (
-            made.lower,
-            (*cutting_violations(spec, made.cutting), *layer_violations(spec, made.lower)),
-        ),
-        (made.upper, layer_violations(spec, made.upper)),
+        (made.lower, (*cutting_violations(spec, made.cutting), *of_lower)),
+        (made.upper, of_upper),
         (made.lower, tie_violations(spec, made)),
     ):
         if found:

@@ -10,7 +10,7 @@ from manifold3d import CrossSection, FillRule, Manifold
 from numpy.typing import NDArray
 
 from patterns.cut_piece import CutPiece
-from sesame_cad.preview import CHORD_TOLERANCE_MM, FABRIC_RINGS, WIRE_SIDES
+from sesame_cad.bodies import CHORD_TOLERANCE_MM, FABRIC_RINGS, WIRE_SIDES
 from sesame_cad.sleeve_prediction.assembly import (
     Assembly,
     SleeveRow,
@@ -19,7 +19,7 @@ from sesame_cad.sleeve_prediction.assembly import (
     constraint_piece,
 )
 from sesame_cad.sleeve_prediction.bent import BentBeam
-from sesame_cad.solids import array_solid, boundary_segments, cell_solid, union_solid
+from sesame_cad.solids import array_solid, boundary_segments, cell_bodies, union_solid
 from sesame_cad.specification import Specification
 from sesame_cad.watertight import watertight
 from solver.sleeve.segment import SegmentPrediction
@@ -74,7 +74,7 @@ def sleeve_solid(spec: Specification, row: SleeveRow, bent: BentBeam) -> trimesh
     def boundary(angle_rad: Vectors) -> Vectors:
         return row.loop(np.ones_like(angle_rad), angle_rad)
 
-    cell = cell_solid(
+    bodies = cell_bodies(
         row.loop,
         boundary,
         wire_diameter_mm=spec.wire.diameter_mm,
@@ -84,7 +84,7 @@ def sleeve_solid(spec: Specification, row: SleeveRow, bent: BentBeam) -> trimesh
         sides=WIRE_SIDES,
     )
     centres = np.stack([row.centres_mm, np.zeros_like(row.centres_mm)], axis=1)
-    straight = array_solid(cell, centres)
+    straight = array_solid(union_solid(bodies), centres)
     return union_solid([(bent.carried(straight.vertices), straight.faces)])
 
 

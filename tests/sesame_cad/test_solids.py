@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.stl import read_stl, write_stl
-from sesame_cad.solids import array_solid, boundary_segments, cell_solid
+from sesame_cad.solids import array_solid, boundary_segments, cell_bodies, union_solid
 
 
 def saddle(radius_mm, rise_mm):
@@ -31,14 +31,16 @@ def square(count, pitch_mm):
 
 
 def cell(surface, wire_mm, thickness_mm, *, segments=None, rings=6, sides=12):
-    return cell_solid(
-        surface,
-        edge(surface),
-        wire_diameter_mm=wire_mm,
-        fabric_thickness_mm=thickness_mm,
-        rings=rings,
-        segments=segments or boundary_segments(edge(surface)),
-        sides=sides,
+    return union_solid(
+        cell_bodies(
+            surface,
+            edge(surface),
+            wire_diameter_mm=wire_mm,
+            fabric_thickness_mm=thickness_mm,
+            rings=rings,
+            segments=segments or boundary_segments(edge(surface)),
+            sides=sides,
+        )
     )
 
 
