@@ -37,7 +37,7 @@ def landscape_picture(prediction: SegmentPrediction) -> bytes:
     axes.set_xlabel("phase of the beam's shape")
     axes.set_ylabel("energy from state + on, mJ")
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False, loc="upper right")
+    axes.legend(frameon=False, loc="lower left")
     axes.set_title(_title(prediction), fontsize=11, color=INK)
     return png_bytes(figure)
 
