@@ -38,11 +38,39 @@ def corner_marks(pieces: Sequence[Polygon], laid: LaidWire) -> tuple[Mark, ...]:
             (right + GAP_MM, bottom - GAP_MM, -1, 1),
             (left - GAP_MM, bottom - GAP_MM, 1, 1),
         ):
-            arm = min(ARM_MM, (top - bottom) / 3)
-            stroke = np.array([(x + along * arm, y), (x, y), (x, y + up * arm)])
-            if np.all(laid.distance_mm(_close(stroke), CLEAR_MM) >= CLEAR_MM):
-                found.append(Mark(x, y, (stroke,)))
-    return tuple(found)
+            stroke = np.array([(x + along * ARM_MM, y), (x, y), (x, y + up * ARM_MM)])
+            found.append(Mark(x, y, (stroke,)))
+    return _clear(found, laid)
+
+
+def end_marks(pieces: Sequence[Polygon], laid: LaidWire) -> tuple[Mark, ...]:
+    """Set a short line across the axis, which is along x, beyond both ends of each piece.
+
+    Parameters
+    ----------
+    pieces, laid
+        As of `corner_marks`.
+    """
+    found: list[Mark] = []
+    for piece in pieces:
+        left, bottom, right, top = piece.bounds
+        middle = (bottom + top) / 2
+        for x in (left - GAP_MM, right + GAP_MM):
+            stroke = np.array([(x, middle - ARM_MM / 2), (x, middle + ARM_MM / 2)])
+            found.append(Mark(x, middle, (stroke,)))
+    return _clear(found, laid)
+
+
+def _clear(marks: list[Mark], laid: LaidWire) -> tuple[Mark, ...]:
+    """Leave out marks too near to wire."""
+    return tuple(
+        mark
+        for mark in marks
+        if all(
+            np.all(laid.distance_mm(_close(stroke), CLEAR_MM) >= CLEAR_MM)
+            for stroke in mark.strokes
+        )
+    )
 
 
 def _close(stroke: np.ndarray) -> np.ndarray:

@@ -19,7 +19,7 @@ from patterns.circuit import Circuit
 from patterns.laid_wire import LaidWire, laid_wire
 from patterns.layout import tangent_layout
 from patterns.outline import Outline, cut_outline
-from patterns.placement import GAP_MM, corner_marks
+from patterns.placement import GAP_MM, corner_marks, end_marks
 from patterns.plan import Block, BlockKind, StitchPlan
 from patterns.registration import Mark, registration_marks
 from patterns.rows import row_wires
@@ -79,7 +79,8 @@ def sleeve_pattern(spec: Specification) -> SleevePattern:
     outlines = tuple(_outline(spec, circuit) for circuit in circuits)
     laid = laid_wire(*(part for circuit in circuits for part in circuit.stages))
     shared = _marks(spec, outlines, cut)
-    placing = corner_marks(cut.shapes, laid)
+    marked = corner_marks if spec.beam.frame_tabs else end_marks
+    placing = marked(cut.shapes, laid)
     lower = _sewn(spec, circuits[0], outlines[0], (*shared, *placing))
     upper = _sewn(spec, circuits[1], outlines[1], shared)
     ties = _ties(spec, circuits[0], laid, framed=spec.beam.frame_tabs)
@@ -130,7 +131,7 @@ def _ties(spec: Specification, circuit: Circuit, laid: LaidWire, *, framed: bool
     beams = "the frame with the beams" if framed else "the beams, hooks in the plane of the fabric,"
     between = "its" if framed else "their"
     before = (
-        f"Leave the hoop in the pantograph. Lay {beams} between {between} sewn corner marks. Lay "
+        f"Leave the hoop in the pantograph. Lay {beams} between {between} sewn marks. Lay "
         "the upper array, still in its hoop and right side up, on the beams, its registration "
         "marks on those of the lower array, the F on the F. Hold all of it down clear of the "
         "needle, and hold the lower tails aside."

@@ -3,7 +3,7 @@ from shapely import box
 
 from patterns.laid_wire import laid_wire
 from patterns.path import Line, WirePath
-from patterns.placement import ARM_MM, CLEAR_MM, GAP_MM, corner_marks
+from patterns.placement import ARM_MM, CLEAR_MM, GAP_MM, corner_marks, end_marks
 
 FAR = laid_wire(WirePath((Line(500, 500, 600, 500),)))
 
@@ -24,3 +24,9 @@ def test_a_mark_that_meets_wire_is_left_out():
     marks = corner_marks([box(-50, -30, 50, 30)], near)
     assert (-51.0, 31.0) not in {(mark.x_mm, mark.y_mm) for mark in marks}
     assert len(marks) == 3
+
+
+def test_a_beam_gets_a_line_beyond_both_ends_across_its_axis():
+    left, right = end_marks([box(-50, 20, 50, 30)], FAR)
+    assert (left.x_mm, right.x_mm) == (-50 - GAP_MM, 50 + GAP_MM)
+    assert left.strokes[0].tolist() == [[-51, 25 - ARM_MM / 2], [-51, 25 + ARM_MM / 2]]
