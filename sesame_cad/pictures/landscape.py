@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -24,17 +27,28 @@ def landscape_picture(prediction: SegmentPrediction) -> bytes:
     rest = energy_to_minus(prediction.rest.scene)
     zero = prediction.rest.unloaded[Side.UP].bending_J
     _draw(axes, rest, zero, COLD_LINE, "both sleeves cold")
-    hot = _landscape(prediction.heated.scene)
-    if hot is not None:
-        _draw(axes, hot, float(hot.energy_J[0]), WIRE, "lower sleeve hot")
+    for label, scene in _hot_scenes(prediction):
+        hot = _landscape(scene)
+        if hot is not None:
+            _draw(axes, hot, float(hot.energy_J[0]), WIRE, label)
+            break
     _mark_barrier(axes, rest, prediction)
     axes.set_xticks([0, 90, 180], ["state +", "S-shaped", "state -"])
     axes.set_xlabel("phase of the beam's shape")
     axes.set_ylabel("energy from state + on, mJ")
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False, loc="upper right")
+    axes.legend(frameon=False, loc="lower left")
     axes.set_title(_title(prediction), fontsize=11, color=INK)
     return png_bytes(figure)
+
+
+def _hot_scenes(prediction: SegmentPrediction) -> Iterator[tuple[str, StripScene]]:
+    """Give the segment with its lower sleeve hot, and, far below that, just as it snaps."""
+    heated, critical = prediction.heated.scene, prediction.critical_couple_N_m
+    yield "lower sleeve hot", heated
+    if critical is not None:
+        snapping = replace(heated, couple_bottom_N_m=critical, couple_top_N_m=0.0)
+        yield "lower sleeve warm enough to snap it", snapping
 
 
 def _landscape(scene: StripScene) -> Landscape | None:

@@ -8,6 +8,7 @@ from functools import partial
 from sesame_cad.files.cut_dxf import cut_dxf
 from sesame_cad.files.cut_line import CutLine, cut_line
 from sesame_cad.files.cut_svg import cut_svg
+from sesame_cad.files.stl import write_stl
 from sesame_cad.package_files import (
     Data,
     Files,
@@ -16,12 +17,21 @@ from sesame_cad.package_files import (
     stitch_files,
     worksheet_file,
 )
+from sesame_cad.pictures.landscape import landscape_picture
 from sesame_cad.pictures.plan import plan_picture
+from sesame_cad.pictures.segment import segment_picture
+from sesame_cad.pictures.sleeve_force import sleeve_force_picture
 from sesame_cad.sleeve.cutting import Sheet
 from sesame_cad.sleeve.data import sleeve_design_data
 from sesame_cad.sleeve.design import SleeveDesign, sleeve_design
 from sesame_cad.sleeve.plan import sleeve_plan_svg
+from sesame_cad.sleeve_prediction.curves import force_curve_csv, force_curves
+from sesame_cad.sleeve_prediction.solids import segment_solids
 from sesame_cad.specification import Specification
+from solver.sleeve.segment import SegmentPrediction
+
+FORCE_FILE = "shape/sleeve-force.csv"
+PREDICTED_PICTURES = ("segment", "landscape", "sleeve-force")
 
 
 def sleeve_files(
@@ -58,6 +68,26 @@ def _files(made: SleeveDesign, progress: Progress) -> Files:
         yield from _sheet_files(name, sheet)
     progress("drawing of the plan")
     yield f"plan/{name}.svg", sleeve_plan_svg(made).encode()
+    if made.prediction is not None:
+        yield from _predicted_files(made.spec, made.prediction, progress)
+
+
+def _predicted_files(spec: Specification, found: SegmentPrediction, progress: Progress) -> Files:
+    """Give previews of the states, the sleeve's force, and pictures of both."""
+    for part, solid in segment_solids(spec, found, progress):
+        yield f"shape/{part}.stl", write_stl(solid, f"{spec.name} {part}")
+    progress("force of the sleeves")
+    curves = force_curves(found)
+    yield FORCE_FILE, force_curve_csv(curves).encode()
+    if spec.output.pictures:
+        progress("pictures of the states")
+        pictures = (
+            segment_picture(spec, found),
+            landscape_picture(found),
+            sleeve_force_picture(found, curves),
+        )
+        for name, picture in zip(PREDICTED_PICTURES, pictures, strict=True):
+            yield f"pictures/{name}.png", picture
 
 
 def sheet_lines(sheet: Sheet) -> tuple[CutLine, ...]:

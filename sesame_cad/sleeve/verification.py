@@ -9,6 +9,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 from patterns.errors import PatternError
 from patterns.violation import Violation
 from sesame_cad.cut_checks import CUT_READERS
@@ -32,8 +34,10 @@ from sesame_cad.reading import Reading
 from sesame_cad.sleeve.cutting import Sheet
 from sesame_cad.sleeve.data import sleeve_design_data
 from sesame_cad.sleeve.design import SleeveDesign
-from sesame_cad.sleeve.package import sheet_lines
+from sesame_cad.sleeve.package import FORCE_FILE, PREDICTED_PICTURES, sheet_lines
 from sesame_cad.sleeve.pattern import LOWER, tie_violations
+from sesame_cad.sleeve_prediction.solids import segment_solids
+from sesame_cad.solid_checks import Size, solid_faults
 from sesame_cad.staging import DESIGN_FILE
 
 Data = dict[str, Any]
@@ -46,14 +50,15 @@ _READERS = MappingProxyType[str, Callable[[bytes], tuple[CutLine, ...]]](
 def checked_sleeves(folder: Path, data: Data, made: SleeveDesign) -> Verification:
     """Compare a folder with the design that it should hold."""
     readings = {name: Reading(folder, data, one) for name, one in made.hoopings.items()}
-    lower = readings[LOWER]
+    lower, sizes = readings[LOWER], _solid_sizes_mm(made)
     parts: list[Faults] = [
-        file_faults(lower, _expected_files(made)),
+        file_faults(lower, (*_expected_files(made), *sizes)),
         differences(data, sleeve_design_data(made, data["files"]), DESIGN_FILE),
         *(sewn_faults(reading) for reading in readings.values()),
         *(fabric_faults(reading) for reading in readings.values()),
         _tie_faults(made, lower),
         *(_sheet_faults(lower, made, sheet) for sheet in made.pattern.cutting.sheets),
+        *(_solid_faults(lower, path, size) for path, size in sizes.items()),
     ]
     faults = tuple(chain.from_iterable(limited(part, MOST_FAULTS) for part in parts))
     return _with_plan(made, faults, readings)
@@ -86,6 +91,10 @@ def _expected_files(made: SleeveDesign) -> Iterator[str]:
     for sheet in made.pattern.cutting.sheets:
         yield from (f"cut/{spec.name}-{sheet.name}.{kind}" for kind in _READERS)
     yield f"plan/{spec.name}.svg"
+    if made.prediction is not None:
+        yield FORCE_FILE
+        if spec.output.pictures:
+            yield from (f"pictures/{one}.png" for one in PREDICTED_PICTURES)
 
 
 def _tie_violations(made: SleeveDesign, lower: Reading) -> tuple[Violation, ...]:
@@ -120,3 +129,20 @@ def _sheet_faults(reading: Reading, made: SleeveDesign, sheet: Sheet) -> Faults:
             continue
         if not same_lines(found, expected):
             yield f"{path}: the lines are not those of the sheet, in their order"
+
+
+def _solid_sizes_mm(made: SleeveDesign) -> dict[str, Size]:
+    """Give width, depth and height of each preview that there should be, by its path."""
+    if made.prediction is None:
+        return {}
+    sizes: dict[str, Size] = {}
+    for part, solid in segment_solids(made.spec, made.prediction):
+        width, depth, height = np.asarray(solid.extents, dtype=float).tolist()
+        sizes[f"shape/{part}.stl"] = width, depth, height
+    return sizes
+
+
+def _solid_faults(reading: Reading, path: str, size_mm: Size) -> Faults:
+    content = reading.content(path)
+    if content is not None:
+        yield from (f"{path}: {fault}" for fault in solid_faults(content, size_mm))

@@ -68,7 +68,7 @@ class BeamSection(Section):
     )
     hook_height_mm: float = Field(
         default=3.5,
-        ge=0.5,
+        ge=1.2,
         le=20,
         description=(
             "the height in mm of the hooks beside a beam, which reach the ties of its compressed "

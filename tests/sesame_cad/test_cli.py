@@ -84,7 +84,7 @@ def test_a_full_disk_is_one_line(run_command, monkeypatch, tmp_path):
     def full(*_):
         raise OSError(28, "No space left on device", "cold.stl")
 
-    monkeypatch.setattr("sesame_cad.package.file_data", full)
+    monkeypatch.setattr("sesame_cad.package_files.file_data", full)
     code, _, err = run_command(
         [
             *("design", "--rows", "1", "--columns", "1", "--loop-diameter", "40mm"),

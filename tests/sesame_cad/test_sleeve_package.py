@@ -26,15 +26,15 @@ SMALL = {
     "layout": {
         "kind": "sleeve",
         "rows": 2,
-        "columns": 3,
+        "columns": 2,
         "loop_diameter_mm": 25,
         "shape": "none",
     },
     "beam": {
-        "length_mm": 100,
+        "length_mm": 70,
         "width_mm": 14,
         "hook_height_mm": 2,
-        "constraint_length_mm": 97,
+        "constraint_length_mm": 68,
     },
     "stitching": {"tail_length_mm": 20},
     "output": {"pictures": False},
@@ -104,7 +104,7 @@ def test_the_program_makes_the_same_bytes_again_and_checks_them(
     path.write_text(spec.to_toml())
     code, out, err = run_command(["design", str(path), "-o", str(tmp_path / "again")])
     assert (code, err) == (0, "")
-    assert "2 of 100 × 14 × 0.38 mm" in out
+    assert "2 of 70 × 14 × 0.38 mm" in out
     for file in package.rglob("*"):
         if file.is_file():
             again = tmp_path / "again" / file.relative_to(package)
@@ -151,16 +151,16 @@ def test_the_numbers_of_beams_are_those_of_the_section(package):
     data = json.loads((package / "design.json").read_text())
     beams, strip = data["beams"], data["beams"]["constraint"]
     assert beams["count"] == strip["count"] == 2
-    assert beams["hole_positions_mm"] == [6, 94]
-    assert strip["hole_positions_mm"] == [6, 91]
-    area = 97 * 12 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4
+    assert beams["hole_positions_mm"] == [6, 64]
+    assert strip["hole_positions_mm"] == [6, 62]
+    area = 68 * 12 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4
     assert strip["mass_g"] == pytest.approx(area * 0.38 * 1.2e-3)
-    assert beams["mass_g"] > (100 * 14 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4) * 0.38 * 1.2e-3
+    assert beams["mass_g"] > (70 * 14 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4) * 0.38 * 1.2e-3
     assert data["sleeve"] is data["bistable"] is beams["hold"] is None
     for layer in data["hoopings"].values():
         assert [one["name"][-1] for one in layer["circuits"]] == ["1", "2"]
         assert layer["circuit"]["closed"]
-        assert layer["circuit"]["covered_contacts"] == layer["circuit"]["contacts"] == 4
+        assert layer["circuit"]["covered_contacts"] == layer["circuit"]["contacts"] == 2
         assert layer["electrics"]["sewn_net"]["shorts"] == 0
 
 
@@ -205,6 +205,27 @@ def test_what_is_missing_or_untrue_is_found(spoilt, package):
     faults = verify(folder)
     assert "cut/small-coupon.svg: missing" in faults
     assert any(fault.startswith("design.json: beams: mass_g") for fault in faults)
+
+
+def test_what_is_predicted_is_in_the_package_and_checked(tmp_path):
+    layout = SMALL["layout"] | {"rows": 1, "shape": "auto"}
+    spec = specification_from(SMALL | {"layout": layout}, "small")
+    data = write_package(spec, tmp_path / "small", lambda _: None)
+    assert data["sleeve"]["force_N"]["hot"] > data["sleeve"]["force_N"]["cold"] > 0
+    assert data["bistable"]["length_mm"] == pytest.approx(58)
+    assert (
+        data["beams"]["hold"]["tie_from_axis_mm"]["cold"] < data["beams"]["hold"]["hook_reach_mm"]
+    )
+    solids = sorted(path for path in data["files"] if path.endswith(".stl"))
+    assert len(solids) == 8
+    # a sleeve in the place of a beam, with its hash right
+    beam, sleeve = tmp_path / "small" / solids[0], tmp_path / "small" / solids[2]
+    beam.write_bytes(sleeve.read_bytes())
+    data["files"][solids[0]] = data["files"][solids[2]]
+    (tmp_path / "small" / "design.json").write_text(json.dumps(data))
+    faults = verify(tmp_path / "small")
+    assert faults
+    assert all(fault.startswith(f"{solids[0]}: ") and "predicted" in fault for fault in faults)
 
 
 def couples(cold_mm, hot_mm):

@@ -9,7 +9,7 @@ import pytest
 from patterns.electrics import ONE_SECOND_A, Drive, Supply, one_second_current_A
 from patterns.plan import BlockKind, StitchPlan
 from patterns.records import plan_records
-from sesame_cad import pipeline, verification
+from sesame_cad import package_checks, pipeline, verification
 from sesame_cad.electrics_data import electrics_data
 from sesame_cad.errors import InputError
 from sesame_cad.pipeline import Design, pattern
@@ -84,7 +84,7 @@ def test_a_design_whose_stitches_short_is_refused_and_found(monkeypatch):
     records = plan_records(StitchPlan(bare), spec.patterns_machine())
     reading = verification.Reading(Path(), {}, made)
     monkeypatch.setitem(vars(reading), "dst", records)
-    assert any("net: short circuit" in fault for fault in verification._rule_faults(reading))
+    assert any("net: short circuit" in fault for fault in package_checks._rule_faults(reading))
     monkeypatch.setattr(pipeline, "stitch_plan", lambda *_: StitchPlan(bare))
     assert any("net: short circuit" in fault for fault in faults())
 

@@ -17,16 +17,17 @@ def _with(spec, section, **keys):
 
 
 def test_sizes_become_si_units(spec):
-    segment = beam_segment(spec)
-    assert segment.strip.length_m == pytest.approx(0.148)
-    assert segment.strip.constraint_m == pytest.approx(0.140)
+    segment, beam = beam_segment(spec), spec.beam
+    hole = 2 * beam.hole_diameter_mm
+    assert segment.strip.length_m == pytest.approx((beam.length_mm - 2 * hole) / 1e3)
+    assert segment.strip.constraint_m == pytest.approx((beam.constraint_length_mm - 2 * hole) / 1e3)
     assert segment.strip.thickness_m == pytest.approx(0.38e-3)
     assert segment.pitch_m == pytest.approx(spec.compressed_pitch_mm / 1e3)
     assert segment.cell.stripe_m == pytest.approx(0.035)
     assert segment.loops == 4
-    begin, end = segment.strip.covered
-    assert begin * 148 + 6 == pytest.approx(spec.sleeve_place.start_mm)
-    assert end == pytest.approx(0.5)
+    begin, end = (share * segment.strip.length_m * 1e3 for share in segment.strip.covered)
+    assert begin + hole == pytest.approx(spec.sleeve_place.start_mm)
+    assert end + hole == pytest.approx(spec.sleeve_place.end_mm)
 
 
 def test_sleeves_on_the_right_half_are_the_mirror_image(spec):
@@ -43,8 +44,8 @@ def test_other_layouts_are_refused():
 
 
 def test_a_sleeve_that_stays_loose_is_refused(spec):
-    loose = _with(spec, "layout", columns=3)
-    with pytest.raises(InputError, match=r"beam-sleeves: the sleeve is not compressed: 3 loops"):
+    loose = _with(spec, "layout", columns=2)
+    with pytest.raises(InputError, match=r"beam-sleeves: the sleeve is not compressed: 2 loops"):
         predict_sleeve(loose)
 
 

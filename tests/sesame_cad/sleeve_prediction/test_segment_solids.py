@@ -50,12 +50,13 @@ def test_rows_stand_off_both_faces(spec, prediction):
         sign = 1 if row.upper else -1
         assert sign * wire[0, 2] == pytest.approx(row.couple.arm_m * 1e3)
         assert (sign * wire[:, 2]).min() >= spec.wire.diameter_mm / 2 - 1e-9
-    assert plus.rows[0].centres_mm[0] + 6 == pytest.approx(
+    assert plus.rows[0].centres_mm[0] + spec.beam.hole_end_mm == pytest.approx(
         spec.sleeve_place.start_mm + spec.compressed_pitch_mm / 2
     )
 
 
 def test_titles_tell_states(spec, prediction):
     plus, minus = assemblies(spec, prediction)
-    assert plus.title.startswith("both sleeves cold: arched up by 20.")
-    assert minus.title.startswith("lower sleeve hot: arched down by 15.")
+    heights = [f"{abs(one.state.height_m) * 1e3:.1f} mm" for one in (plus, minus)]
+    assert plus.title == f"both sleeves cold: arched up by {heights[0]}"
+    assert minus.title == f"lower sleeve hot: arched down by {heights[1]}"
