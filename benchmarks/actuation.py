@@ -22,7 +22,8 @@ import numpy as np
 from solver.actuation.cell_path import HeatedCell, cell_path, follow_cell
 from solver.actuation.convection import natural_convection_W_m2K
 from solver.actuation.duty import Duty, follow
-from solver.actuation.lifting import load_table, stands_at
+from solver.actuation.lifting import stands_at
+from solver.actuation.load_table import load_table
 from solver.actuation.transformation import Transformation
 from solver.actuation.wire import HeatedWire, Surroundings, at_rest
 from solver.mesh.solve import solve_loop_mesh

@@ -24,7 +24,7 @@ from sesame_cad.specification import Specification
 from solver.actuation.cell_path import CellPath, HeatedCell, cell_path
 from solver.actuation.duty import Duty, History, follow
 from solver.actuation.heating import Heating
-from solver.actuation.lifting import LoadTable, height_history, load_table
+from solver.actuation.load_table import LoadTable, height_history, load_table
 from solver.actuation.wire import HeatedWire, Surroundings, WireState, at_rest
 from solver.errors import SceneError
 from solver.materials import LoopMaterials

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
 import numpy as np
 
-from patterns.electrics import Supply
 from sesame_cad.actuation.course import Actuation
+from sesame_cad.actuation.course_findings import flattened_at, supply_faults, warnings, work_J
 from sesame_cad.electrics_data import in_parallel_ohm
 from sesame_cad.omissions import material_omissions
 from sesame_cad.omitted_data import omitted_data
@@ -18,11 +17,6 @@ from solver.omitted import OmittedTerm
 Data = dict[str, Any]
 
 FORMAT_VERSION = 1
-THREAD_MELTS_C = 250.0
-"""Polyester, of which embroidery thread is made, melts from about here on (250 to 260 °C)."""
-
-_SMALL = 0.01
-"""A fraction of austenite below this is none."""
 
 
 def actuation_data(made: Actuation) -> Data:
@@ -44,7 +38,7 @@ def actuation_data(made: Actuation) -> Data:
         "stroke": _stroke_data(made),
         "load": _load_data(made),
         "power": _power_data(made),
-        "warnings": list(_warnings(made)),
+        "warnings": list(warnings(made)),
         "omitted_terms": omitted_data(_omitted(made)),
         "specification": made.spec.model_dump(mode="json"),
     }
@@ -172,30 +166,19 @@ def _load_data(made: Actuation) -> Data:
         "flattening_load_hot_g": hot_g,
         "flattening_load_over_mass_cold": cold_g / mass_g,
         "flattening_load_over_mass_hot": hot_g / mass_g,
-        "flattened_at": _snap_data(made),
-        "work_per_cycle_mJ": _work_J(made) * 1e3,
+        "flattened_at": flattened_at(made),
+        "flattens_when_heated_to_C": _flattens_when_heated_to_C(made),
+        "work_per_cycle_mJ": work_J(made) * 1e3,
     }
 
 
-def _snap_data(made: Actuation) -> Data | None:
-    """When and where the load flattens the array."""
-    heights, place = made.loaded
-    if place is None or heights.size == 0:
-        return None
-    course = made.history.course
-    return {
-        "time_s": float(course.time_s[place]),
-        "temperature_C": float(course.temperature_C[place]),
-        "austenite_fraction": float(course.fraction[place]),
-    }
+def _flattens_when_heated_to_C(made: Actuation) -> float | None:  # noqa: N802
+    """Temperature of the wire at which the load flattens the array, slowly heated from cold.
 
-
-def _work_J(made: Actuation) -> float:  # noqa: N802 - the unit's own spelling
-    """What the array lifts the slab by in the last cycle, on its way up; none once flattened."""
-    if made.loaded[1] is not None:
-        return 0.0
-    rises = np.maximum(np.diff(made.loaded[0][made.last_cycle]), 0.0)
-    return made.load_N * float(rises.sum()) / 1e3
+    None when it never does, and when the array does not carry the load cold.
+    """
+    fraction = made.table.snaps_at(0.0, 1.0, made.load)
+    return made.wire.transformation.heated_to(fraction) if fraction else None
 
 
 def _power_data(made: Actuation) -> Data:
@@ -204,50 +187,15 @@ def _power_data(made: Actuation) -> Data:
     drives = made.body.drives(current)
     joule = made.history.course.joule_J_m[made.last_cycle]
     energy = float(joule[-1] - joule[0]) * metres
-    supply = Supply(made.spec.supply.voltage_V, made.spec.supply.current_A)
-    work = _work_J(made)
+    work = work_J(made)
     return {
         "power_cold_W": cold,
         "power_hot_W": sum(drive.power_W for drive in drives),
         "voltage_hot_V": max(drive.voltage_V for drive in drives),
         "energy_per_cycle_J": energy,
         "work_over_energy": work / energy if energy > 0 else None,
-        "supply_faults": list(made.body.supply_faults(supply, current)),
+        "supply_faults": list(supply_faults(made)),
     }
-
-
-def _warnings(made: Actuation) -> Iterator[str]:
-    """Say in a line each what keeps the array from working as an actuator."""
-    law, heat = made.wire.transformation, made.spec.actuation
-    for fault in _power_data(made)["supply_faults"]:
-        yield f"the supply cannot drive the array: {fault}"
-    if made.start.fraction > 1 - _SMALL:
-        yield f"at {heat.ambient_C:g} C the wire is hot before any current flows"
-    elif made.history.course.fraction.max() < made.start.fraction + _SMALL:
-        yield (
-            f"the wire does not transform: it reaches {made.history.course.temperature_C.max():.1f}"
-            f" C, and austenite begins at {law.austenite_start_C:g} C"
-        )
-    highest_C = float(made.history.course.temperature_C.max())  # noqa: N806
-    if highest_C > THREAD_MELTS_C:
-        yield (
-            f"the wire reaches {highest_C:.0f} C, and polyester thread melts at "
-            f"{THREAD_MELTS_C:g} C; lower wire.current_A or actuation.heating_s"
-        )
-    stays = float(law.cooled(heat.ambient_C))
-    if stays > _SMALL:
-        yield (
-            f"once heated the wire stays hot: it cools to {heat.ambient_C:g} C, where "
-            f"{100 * stays:.0f} % is still austenite, and turns back from "
-            f"{law.martensite_start_C:g} to {law.martensite_finish_C:g} C; take wire of a higher "
-            "transition, or check actuation.hysteresis_C"
-        )
-    snap = _snap_data(made)
-    if snap is not None:
-        yield (
-            f"the load flattens the array after {snap['time_s']:.3g} s, at "
-            f"{snap['temperature_C']:.1f} C, and it stays flat as long as the load lies on it"
-        )
 
 
 def _omitted(made: Actuation) -> tuple[OmittedTerm, ...]:

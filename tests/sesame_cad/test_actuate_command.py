@@ -140,7 +140,9 @@ def test_any_load_is_carried_or_flattens(made_of):
     between = (data["load"]["flattening_load_cold_g"] + data["load"]["flattening_load_hot_g"]) / 2
     snapped = made_of(load_g=between)
     heights, place = snapped.loaded
-    assert 60 < actuation_data(snapped)["load"]["flattened_at"]["temperature_C"] < 70
+    found = actuation_data(snapped)["load"]
+    assert 60 < found["flattens_when_heated_to_C"] <= found["flattened_at"]["temperature_C"] < 70
+    assert data["load"]["flattens_when_heated_to_C"] is None
     assert heights[:place].min() > 1
     assert heights[place:].max() == 0
 

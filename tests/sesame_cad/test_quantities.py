@@ -8,11 +8,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sesame_cad.quantities import (
+    CURRENT_A,
+    LENGTH_MM,
+    MASS_G,
+    TEMPERATURE_C,
+    TIME_S,
     kind_of,
     parse_length_mm,
     parse_modulus_gpa,
     parse_modulus_kpa,
     parse_quantity,
+    parse_range,
     parse_strain,
     parse_temperature_c,
 )
@@ -123,3 +129,50 @@ def test_any_text_is_a_length_or_refused_in_one_line(text):
     except ValueError as error:
         refusal = str(error)
     assert len(refusal.splitlines()) <= 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "value"),
+    [
+        (MASS_G, "0.04kg", 40),
+        (MASS_G, "500 mg", 0.5),
+        (TIME_S, "2min", 120),
+        (TIME_S, "250ms", 0.25),
+        (CURRENT_A, "900mA", 0.9),
+    ],
+)
+def test_quantities_that_are_no_keys(kind, text, value):
+    assert kind.parse(text) == value
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "ends"),
+    [
+        (LENGTH_MM, "15..45mm", (15, 45)),
+        (LENGTH_MM, "1.5cm .. 45 mm", (15, 45)),
+        (LENGTH_MM, ".5..1e1mm", (0.5, 10)),
+        (TEMPERATURE_C, "-50..300C", (-50, 300)),
+        (TEMPERATURE_C, "300K..80C", (26.85, 80)),
+    ],
+)
+def test_ranges(kind, text, ends):
+    assert parse_range(kind, text) == ends
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("45mm", "is not a range"),
+        ("45..15mm", "the first must be less than the second"),
+        ("15..15mm", "the first must be less than the second"),
+        ("15..45", "has no unit"),
+        ("15..45C", "is not a length"),
+        ("..45mm", "is not a length"),
+        ("15mm..", "is not a length"),
+        ("1..2..3mm", "is not a length"),
+    ],
+)
+def test_bad_ranges_are_refused_in_one_line(text, says):
+    with pytest.raises(ValueError, match=says) as caught:
+        parse_range(LENGTH_MM, text)
+    assert "\n" not in str(caught.value)

@@ -6,12 +6,8 @@ import numpy as np
 import pytest
 
 from solver.actuation.cell_path import HeatedCell, cell_path
-from solver.actuation.lifting import (
-    height_history,
-    load_table,
-    pressed,
-    stands_at,
-)
+from solver.actuation.lifting import pressed, stands_at
+from solver.actuation.load_table import height_history, load_table
 from solver.circle import stays_flat
 from solver.compact import solve_loop
 from solver.errors import NotConvergedError, SceneError

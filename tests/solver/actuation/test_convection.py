@@ -49,10 +49,12 @@ def test_impossible_input_is_refused(diameter, temperature):
         natural_convection_W_m2K(diameter, temperature, 25.0)
 
 
-def test_a_wire_worked_by_hand_with_tabulated_air():
-    """0.5 mm, 127 °C in 27 °C; air at 350 K of Incropera and DeWitt's table A.4: 20.92e-6 m²/s,
-    29.9e-6 m²/s, 0.0300 W/mK. Ra = 0.560, Nu = 0.7945."""
-    assert natural_convection_W_m2K(5e-4, 127.0, 27.0) == pytest.approx(47.7, rel=0.015)
+@pytest.mark.parametrize(("diameter", "by_hand"), [(5e-4, 47.7), (1e-2, 10.87)])
+def test_worked_by_hand_with_tabulated_air(diameter, by_hand):
+    """127 °C in 27 °C; air at 350 K of Incropera and DeWitt's table A.4: 20.92e-6 m²/s,
+    29.9e-6 m²/s, 0.0300 W/mK. Ra = 0.560 and 4480, Nu = 0.7945 and 3.622."""
+    found = natural_convection_W_m2K(diameter, 127.0, 27.0)
+    assert found == pytest.approx(by_hand, rel=0.02)
 
 
 def test_loss_of_a_metre():
