@@ -76,6 +76,7 @@ LENGTH_MM = _kind(
 )
 MODULUS_KPA = _pressure(3, "700kPa")
 MODULUS_GPA = _pressure(9, "28GPa")
+FORCE_N = _kind("a force", "0.5N", **{"N": "1", "mN": "0.001", "kN": "1000"})
 STRAIN = _kind("a strain", "0.3 or 30%", **{"": "1", "%": "0.01"})
 NUMBER = _kind("a number", "0.45", **{"": "1"})
 RESISTIVITY_UOHM_CM = _kind(
@@ -103,6 +104,7 @@ CURRENT_A = _kind("a current", "1.3A", **{"A": "1", "mA": "0.001"})
 _BY_ENDING: Mapping[str, Kind] = MappingProxyType(
     {
         "_mm": LENGTH_MM,
+        "_N": FORCE_N,
         "_kPa": MODULUS_KPA,
         "_GPa": MODULUS_GPA,
         "_C": TEMPERATURE_C,

@@ -26,6 +26,8 @@ _STEPS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05)
 _MOST_LEVELS = 18
 _CURVE_POINTS = 400
 _THRESHOLD, _INK, _UNPHYSICAL = "#D55E00", "#222222", "#FFFFFF"
+_NOTHING = "#AAAAAA"
+"""Where there is no height."""
 _NAMES = {
     "beta": "β, bending stiffness of the wire over stiffness of the fabric",
     "strain": "ε, prestrain of the fabric",
@@ -99,6 +101,7 @@ def _contour_figure(
 def _draw_heights(figure: Figure, panel: Axes, x: Vectors, y: Vectors, height: Vectors) -> None:
     top = float(np.nanmax(height)) if np.isfinite(height).any() else 0.0
     step = next((one for one in _STEPS if top <= _MOST_LEVELS * one), _STEPS[-1])
+    panel.set_facecolor(_NOTHING)
     levels = step * np.arange(max(2, int(np.ceil(top / step)) + 1))
     drawn = panel.contourf(x, y, np.ma.masked_invalid(height), levels=levels, cmap="viridis")
     bar = figure.colorbar(drawn, ax=panel, format="%.2f")
@@ -157,11 +160,11 @@ def _draw_threshold(
         beta = np.linspace(min(right.values), max(right.values), _CURVE_POINTS)
         strain = [critical_strain(value, poisson, reading) for value in beta.tolist()]
         panel.plot(beta, strain, color=_THRESHOLD, linewidth=2)
-    elif np.isfinite(excess).all() and excess.min() < 0 < excess.max():
+    elif (excess < 0).any() and (excess > 0).any():
         panel.contour(
             np.array(right.values),
             np.array(up.values),
-            excess,
+            np.ma.masked_invalid(excess),
             levels=[0.0],
             colors=[_THRESHOLD],
             linewidths=2,

@@ -23,6 +23,8 @@ MOST_DEATHS = 10
 _SETTINGS = {
     "distributed.scheduler.allowed-failures": MOST_DEATHS,
     "distributed.logging.distributed": "critical",
+    # Dask has workers give memory back at once, and asking for it again takes longer than a solve
+    "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 28,
 }
 
 

@@ -96,7 +96,10 @@ class SweepPlan:
         }
 
     def check(self) -> None:
-        """Try the ends of every axis.
+        """Try the ends of every axis, each with the least and the greatest of the others.
+
+        An end that goes with neither is a fault. One that goes with some is a matter of its points:
+        those that cannot be say so in the table.
 
         Raises
         ------
@@ -106,18 +109,23 @@ class SweepPlan:
         if self.size > MOST_POINTS:
             raise InputError(f"{self.size} points: a sweep has at most {MOST_POINTS}")
         faults: dict[str, None] = {}
-        first = [axis.values[0] for axis in self.axes]
+        others = [[end(axis.values) for axis in self.axes] for end in (min, max)]
         for k, axis in enumerate(self.axes):
-            for value in {min(axis.values): None, max(axis.values): None}:
-                point = [*first[:k], value, *first[k + 1 :]]
-                try:
-                    self.model.check(self.keys, point)
-                except InputError as error:
-                    faults.update(dict.fromkeys(error.faults))
-                except SceneError as error:
-                    faults[str(error)] = None
+            for value in dict.fromkeys((min(axis.values), max(axis.values))):
+                tried = [self._faults([*fixed[:k], value, *fixed[k + 1 :]]) for fixed in others]
+                if all(tried):
+                    faults.update(dict.fromkeys(tried[0]))
         if faults:
             raise InputError(*faults)
+
+    def _faults(self, point: Sequence[float]) -> tuple[str, ...]:
+        try:
+            self.model.check(self.keys, point)
+        except InputError as error:
+            return error.faults
+        except SceneError as error:
+            return (str(error),)
+        return ()
 
 
 def solve_chunk(

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from solver.checks import CONTACT
 from solver.compact import solve_loop
 from solver.errors import SceneError
 from solver.many import solve_many
@@ -51,3 +52,13 @@ def test_out_of_range():
 
 def test_nothing_to_solve():
     assert solve_many([], [], []).energy.shape == (0,)
+
+
+def test_meeting_is_judged_as_alone():
+    strain = [0.7, 0.85]
+    found = solve_many(strain, [0.007, 0.008], 0.45, Reading.PLANE_STRESS, 50.0)
+    for k, e in enumerate(strain):
+        scene = LoopScene(e, (0.007, 0.008)[k], 0.45, axial_stiffness=50.0)
+        alone = solve_loop(scene, tolerance=1e-3, allow_unreliable=True)
+        assert found.meets[k] == any(left.term == CONTACT and left.fatal for left in alone.omitted)
+    assert found.meets.tolist() == [False, True]
