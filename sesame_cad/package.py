@@ -12,7 +12,7 @@ from patterns.records import Records, plan_records
 from sesame_cad.coupled_state import CoupledState
 from sesame_cad.design_data import design_data
 from sesame_cad.files.block_list import block_list_csv
-from sesame_cad.files.dst import write_dst
+from sesame_cad.files.dst import decode_dst, write_dst
 from sesame_cad.files.dxf import outline_dxf
 from sesame_cad.files.plan_svg import plan_svg
 from sesame_cad.files.stitch_formats import write_embroidery
@@ -23,6 +23,7 @@ from sesame_cad.pictures.shapes import AnyView, ShapeView, SheetView, shapes_pic
 from sesame_cad.pictures.worksheet import worksheet_pdf
 from sesame_cad.pipeline import Design, design
 from sesame_cad.preview import solids
+from sesame_cad.report.page import REPORT_FILE, report_html
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory
@@ -58,6 +59,10 @@ def write_package(spec: Specification, target: Path, progress: Progress) -> dict
             _write(folder / path, content)
             files[path] = file_data(content)
         data = design_data(made, records, dict(sorted(files.items())))
+        progress("report")
+        page = _report(made, data, folder).encode()
+        _write(folder / REPORT_FILE, page)
+        data["files"] = dict(sorted({**files, REPORT_FILE: file_data(page)}.items()))
         text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
         _write(folder / DESIGN_FILE, f"{text}\n".encode())
     return data
@@ -100,6 +105,13 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
             progress("picture of the shapes")
             views = [_view(made.spec, state) for state in made.states]
             yield "pictures/shapes.png", shapes_picture(views)
+
+
+def _report(made: Design, data: dict[str, Any], folder: Path) -> str:
+    """Show the design with the stitches that the written DST file holds."""
+    spec = made.spec
+    written = (folder / f"stitch/{spec.name}.dst").read_bytes()
+    return report_html(made, data, decode_dst(written, spec.dst_switches()).records)
 
 
 def _view(spec: Specification, state: ShapeState) -> AnyView:

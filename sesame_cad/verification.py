@@ -18,6 +18,7 @@ from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.package import file_data
 from sesame_cad.pipeline import Design, design
 from sesame_cad.reading import Reading
+from sesame_cad.report.page import REPORT_FILE
 from sesame_cad.solid_checks import solid_faults, solid_sizes_mm
 from sesame_cad.specification import specification_from
 from sesame_cad.staging import DESIGN_FILE
@@ -143,6 +144,7 @@ def _expected_files(made: Design) -> Iterator[str]:
     yield from (f"stitch/{name}.{kind}" for kind in (*made.spec.output.formats, "blocks.csv"))
     yield f"plan/{name}.svg"
     yield f"worksheet/{name}.pdf"
+    yield REPORT_FILE
     yield from (f"cut/{name}.{kind}" for kind in ("svg", "dxf"))
     if made.spec.output.pictures:
         yield "pictures/plan.png"
