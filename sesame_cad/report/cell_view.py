@@ -97,7 +97,7 @@ def _gradient(shape: LoopShape, radius: Vectors, angle_rad: Vectors) -> Vectors:
 
 def _curvature(curve: EdgeCurve, count: int) -> Vectors:
     """Curvature (count,) in units of 1/R at equal angles: |x' × x''| / |x'|³."""
-    angle = np.arange(count) * (2 * np.pi / count)
+    angle = np.arange(count, dtype=np.float64) * (2 * np.pi / count)
     along, bend = curve.position(angle, 1), curve.position(angle, 2)
     across = np.linalg.norm(np.cross(along, bend), axis=1)
     return across / np.linalg.norm(along, axis=1) ** 3

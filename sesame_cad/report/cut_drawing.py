@@ -66,7 +66,7 @@ def _grid(sheet: Sheet) -> str:
 
 
 def _dimensions(laid: Pattern, sheet: Sheet) -> Iterator[str]:
-    """Size of all fabric, of the first loop and, if it is no circle, of its other axis."""
+    """Size of all fabric, and of the last loop, which no tail comes near in most layouts."""
     size = text_size(sheet)
     left, bottom, right, top = laid.outline.bounds_mm
     corners = sheet.on_page(np.array([(left, top), (right, bottom)]))
@@ -74,8 +74,8 @@ def _dimensions(laid: Pattern, sheet: Sheet) -> Iterator[str]:
     above, aside = 1.2 * size, 1.6 * size
     yield from dimension((x1, above), (x2, above), size, f"{right - left:.1f} mm")
     yield from dimension((aside, y1), (aside, y2), size, f"{top - bottom:.1f} mm")
-    loop = laid.circuit.layout.loops[0]
+    loop = laid.circuit.layout.loops[-1]
     ((x, y),) = sheet.on_page(np.array([(loop.x_mm, loop.y_mm)])).tolist()
     half = loop.width_mm / 2
-    small = min(size, loop.width_mm / 9)
+    small = min(size, loop.width_mm / 11)
     yield from dimension((x - half, y), (x + half, y), small, f"loop {loop.width_mm:.1f} mm wide")

@@ -46,7 +46,7 @@ SCRIPTS = (
 )
 """In the order in which they are read."""
 
-_COLOURS = 32
+_COLOURS = 64
 
 
 def report_html(

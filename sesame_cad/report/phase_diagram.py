@@ -26,14 +26,14 @@ def phase_diagram(data: Data) -> str:
     """
     strain, points = data["strain"], (("cold", data["beta"]), ("hot", data["beta_hot"]))
     reading, poisson = Reading(data["reading"]), data["poisson"]
-    largest = 1.4 * strain
+    largest = 1.3 * strain
     strains = np.linspace(0, largest, _CURVE_POINTS)
     betas = [critical_beta(float(one), poisson, reading) for one in strains]
-    highest = 1.15 * max([critical_beta(1.1 * strain, poisson, reading), *(b for _, b in points)])
+    highest = 1.1 * max([*betas, *(beta for _, beta in points)])
     label = f"β of {points[0][1]:.4g} cold and {points[1][1]:.4g} hot at a strain of {strain:g}"
 
     def place(at: float, beta: float) -> tuple[float, float]:
-        return _LEFT + _WIDTH * at / largest, _TOP + _HEIGHT * (1 - min(beta / highest, 1.0))
+        return _LEFT + _WIDTH * at / largest, _TOP + _HEIGHT * (1 - beta / highest)
 
     curve = [place(float(one), beta) for one, beta in zip(strains, betas, strict=True)]
     line = "M" + "L".join(f"{x:.2f},{y:.2f}" for x, y in curve)

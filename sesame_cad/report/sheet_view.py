@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 from sesame_cad.coupled_state import CoupledState
 from sesame_cad.report.fabric_fields import FabricFields, fabric_fields
 from sesame_cad.report.packing import packed_integers, packed_reals
+from sesame_cad.report.recovery import at_vertices
 from sesame_cad.specification import Specification
 from solver.loop_energy import scene_membrane
 from solver.mesh.any_scene import fabric_of
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.triangle_energy import TriangleEnergy, triangle_energy
-from solver.mesh.triangulation import Mesh, embedded, prolonged, refined
+from solver.mesh.triangulation import embedded, prolonged, refined
 from solver.mesh.upright import upright
 
 Data = dict[str, Any]
@@ -35,7 +36,7 @@ def sheet_view(spec: Specification, cold: CoupledState, hot: CoupledState) -> Da
         "kind": "sheet",
         "wireDiametersMm": list(cold.diameters_mm),
         "states": [
-            _state(spec, "flat", cold, flat) | {"heightMm": 0.0, "pitchMm": None},
+            _state(spec, "flat", cold, flat) | {"heightMm": 0.0, "pitchMm": cold.pitch_at_mm(flat)},
             _state(spec, "cold", cold, upright(cold.found.mesh, cold.found.positions)),
             _state(spec, "hot", hot, upright(hot.found.mesh, hot.found.positions)),
         ],
@@ -74,7 +75,7 @@ def _state(spec: Specification, stop: str, state: CoupledState, positions: Vecto
 
 
 def _fields(spec: Specification, found: MeshEquilibrium, positions: Vectors) -> FabricFields:
-    """Stretch and tension at each vertex, the mean of the triangles around it by area."""
+    """Stretch and tension at each vertex."""
     mesh, scene = found.mesh, fabric_of(found.scene)
     membrane = scene_membrane(scene)
     fabric = triangle_energy(
@@ -83,8 +84,8 @@ def _fields(spec: Specification, found: MeshEquilibrium, positions: Vectors) -> 
     modulus = spec.fabric.modulus_kPa * spec.fabric.thickness_mm  # kPa mm = N/m
     of_triangles = fabric_fields(_deformation(fabric, positions), fabric.law, modulus)
     return FabricFields(
-        _at_vertices(mesh, of_triangles.stretch_percent),
-        _at_vertices(mesh, of_triangles.tension_N_m),
+        at_vertices(mesh, of_triangles.stretch_percent),
+        at_vertices(mesh, of_triangles.tension_N_m),
     )
 
 
@@ -92,12 +93,6 @@ def _deformation(fabric: TriangleEnergy, positions: Vectors) -> Vectors:
     """Derivatives (m, 3, 2) of the position by the coordinates of the unloaded fabric."""
     corners = positions[fabric.vertices]
     return np.swapaxes(corners, 1, 2) @ fabric.shape_gradients
-
-
-def _at_vertices(mesh: Mesh, values: Vectors) -> Vectors:
-    share = np.repeat(mesh.areas / 3, 3)
-    total = np.bincount(mesh.triangles.ravel(), share * np.repeat(values, 3), len(mesh.points))
-    return total / np.maximum(mesh.vertex_areas, 1e-300)
 
 
 def _curvature(chain: Vectors) -> Vectors:

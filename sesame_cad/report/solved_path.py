@@ -109,9 +109,8 @@ def _moduli_between(
     heated = np.linspace(1, lowest, HEATING_STEPS + 1)[1:]
     if end < flat_from:
         heated = heated[:-1]
-    return tuple(  # pyright: ignore[reportReturnType]
-        (flat_from - (flat_from - start) * roots**2).tolist() for roots in (released, heated)
-    )
+    below = flat_from - start
+    return (flat_from - below * released**2).tolist(), (flat_from - below * heated**2).tolist()
 
 
 def _solved(

@@ -39,13 +39,15 @@ function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
-// A tube of so many sides along a closed chain of points; values are repeated around it.
+// A tube of so many sides along a closed chain of points; values are repeated around it. Of two
+// sides it is a band, which stands at 45 degrees and so is seen from above and from the side.
 function tube(chain, values, diameter, sides) {
   const count = chain.length / 3;
   const points = new Float32Array(3 * count * sides);
   const normals = new Float32Array(3 * count * sides);
   const repeated = new Float32Array(count * sides);
-  const triangles = new Uint32Array(6 * count * sides);
+  const quads = sides > 2 ? sides : 1;
+  const triangles = new Uint32Array(6 * count * quads);
   for (let k = 0; k < count; k++) {
     const before = 3 * ((k + count - 1) % count), after = 3 * ((k + 1) % count);
     const along = unit([0, 1, 2].map((c) => chain[after + c] - chain[before + c]));
@@ -53,7 +55,7 @@ function tube(chain, values, diameter, sides) {
     const aside = unit(cross(pole, along));
     const up = cross(along, aside);
     for (let s = 0; s < sides; s++) {
-      const turn = (2 * Math.PI * s) / sides, at = k * sides + s;
+      const turn = (2 * Math.PI * s) / sides + (sides > 2 ? 0 : Math.PI / 4), at = k * sides + s;
       for (let c = 0; c < 3; c++) {
         const normal = Math.cos(turn) * up[c] + Math.sin(turn) * aside[c];
         normals[3 * at + c] = normal;
@@ -62,7 +64,7 @@ function tube(chain, values, diameter, sides) {
       repeated[at] = values[k];
       const onward = ((k + 1) % count) * sides, next = (s + 1) % sides;
       const corners = [at, onward + s, onward + next, at, onward + next, k * sides + next];
-      triangles.set(corners, 6 * at);
+      if (s < quads) triangles.set(corners, 6 * (k * quads + s));
     }
   }
   return { points, normals, values: repeated, triangles };

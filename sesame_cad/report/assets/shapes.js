@@ -26,26 +26,25 @@ class CellShapes {
     this.states = view.states;
     this.loops = view.places.length;
     this.step = 0.01;
-    this.finest = 0;
     this.packed = {};
     for (const key of ['points', 'stretch', 'tension', 'curvature']) this.packed[key] = unpack(view[key]);
     this.ranges = Object.fromEntries(
       ['stretch', 'tension', 'curvature'].map((key) => [key, extent([this.packed[key]])]),
     );
-    this.levels = [1, 2, 4].map((stride) => this.level(stride));
+    this.levels = [this.level(1, 1, 12), this.level(2, 2, 8), this.level(4, 4, 5), this.level(8, 6, 2)];
   }
 
-  // Which points a level of detail keeps: every ring and segment, every second, every fourth.
-  level(stride) {
+  // A level of detail keeps every so many rings and segments, and so many sides of the wire.
+  level(ringStep, segmentStep, sides) {
     const { rings, segments } = this.view;
-    const kept = [0];
-    for (let ring = stride; ring <= rings; ring += stride) {
-      for (let k = 0; k < segments; k += stride) kept.push(1 + (ring - 1) * segments + k);
+    const kept = [0], around = [];
+    for (let k = 0; k < segments; k += segmentStep) around.push(k);
+    for (let ring = ringStep; ring <= rings; ring += ringStep) {
+      for (const k of around) kept.push(1 + (ring - 1) * segments + k);
     }
-    const around = [];
-    for (let k = 0; k < segments; k += stride) around.push(k);
-    const triangles = discTriangles(rings / stride, segments / stride);
-    return { kept, around, triangles, sides: [12, 8, 5][Math.log2(stride)] };
+    const triangles = discTriangles(rings / ringStep, around.length);
+    const total = this.loops * (triangles.length / 3 + 2 * (sides > 2 ? sides : 1) * around.length);
+    return { kept, around, triangles, sides, total };
   }
 
   mixed(key, items, width, s) {
@@ -90,7 +89,6 @@ class SheetShapes {
     this.view = view;
     this.loops = 1;
     this.step = 1;
-    this.finest = 0;
     this.states = view.states.map((state) => ({
       ...state,
       points: unpack(state.points), triangles: unpack(state.triangles),
@@ -101,7 +99,7 @@ class SheetShapes {
       ['stretch', 'tension'].map((key) => [key, extent(this.states.map((state) => state[key]))]),
     );
     this.ranges.curvature = extent(this.states.flatMap((state) => state.curvature));
-    this.levels = [null];
+    this.levels = [{ total: 0 }];
   }
 
   numbers(s) {

@@ -1,7 +1,9 @@
 // The 3-D view: orbit, zoom, slider, colour scales, and dimensions on the model.
 
-const SLOW_MS = 30; // a frame that takes longer is drawn coarser from then on
-const MANY_TRIANGLES = 250000;
+const SLOW_MS = 34, SLOW_FRAMES = 3; // after so many slower frames, motion is drawn coarser
+const REST_MS = 180; // after so long without motion it is drawn finer
+// The most triangles to draw in motion and at rest, where the processor draws them and where not.
+const MOST_TRIANGLES = { slow: [35000, 200000], quick: [700000, 3000000] };
 
 class Viewer {
   constructor(root, view, colours) {
@@ -11,11 +13,12 @@ class Viewer {
     this.overlay = root.querySelector('.overlay');
     this.slider = root.querySelector('[name=place]');
     this.quantity = root.querySelector('[name=quantity]');
-    this.painter = new Painter(this.canvas, this.shapes.loops <= 100);
+    this.slowly = drawsSlowly();
+    this.painter = new Painter(this.canvas, !this.slowly);
     this.painter.colours('fabric', colours.fabric);
     this.painter.colours('wire', colours.wire);
     this.colours = colours;
-    this.detail = this.firstDetail();
+    [this.coarse, this.finest] = MOST_TRIANGLES[this.slowly ? 'slow' : 'quick'].map((most) => this.within(most));
     this.slider.max = this.shapes.states.length - 1;
     this.slider.step = this.shapes.step;
     this.home();
@@ -23,13 +26,10 @@ class Viewer {
     this.place(this.stop('cold'));
   }
 
-  firstDetail() {
-    let detail = 0;
-    while (detail < this.shapes.levels.length - 1) {
-      if (this.shapes.levels[detail].triangles.length / 3 * this.shapes.loops <= MANY_TRIANGLES) break;
-      detail++;
-    }
-    return detail;
+  // The finest level of detail with no more triangles.
+  within(most) {
+    const fits = this.shapes.levels.findIndex((level) => level.total <= most);
+    return fits < 0 ? this.shapes.levels.length - 1 : fits;
   }
 
   stop(name) {
@@ -41,15 +41,24 @@ class Viewer {
     this.elevation = 32;
     this.zoom = 1;
     this.shift = [0, 0];
-    this.radius = Math.max(...['flat', 'cold', 'hot'].map((name) => this.reach(this.stop(name))));
+    const bounds = ['flat', 'cold', 'hot'].map((name) => this.bounds(this.stop(name)));
+    this.radius = Math.max(...bounds.map(([, , reach]) => reach));
+    this.half = [0, 1].map((k) => Math.max(...bounds.map((one) => one[k])));
   }
 
-  // Largest distance from the middle that anything has.
-  reach(s) {
+  // How far anything is from the middle, as seen: to the side, up or down, and in space.
+  bounds(s) {
     const { chain, places, pitchMm } = this.shapes.at(s, 'stretch', this.shapes.levels.length - 1);
-    let own = 0;
-    for (let i = 0; i < chain.length; i += 3) own = Math.max(own, Math.hypot(chain[i], chain[i + 1], chain[i + 2]));
-    return own + pitchMm * Math.max(...places.map(([x, y]) => Math.hypot(x, y)));
+    const [right, up] = this.axes();
+    const far = [0, 0, 0];
+    for (const [x, y] of places) {
+      for (let i = 0; i < chain.length; i += 3) {
+        const p = [chain[i] + x * pitchMm, chain[i + 1] + y * pitchMm, chain[i + 2]];
+        const seen = [right, up].map((axis) => Math.abs(axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]));
+        [...seen, Math.hypot(...p)].forEach((v, k) => (far[k] = Math.max(far[k], v)));
+      }
+    }
+    return far;
   }
 
   listen() {
@@ -75,12 +84,12 @@ class Viewer {
       else this.orbit(-dx / 3, dy / 3);
     });
     new ResizeObserver(() => this.soon()).observe(this.canvas);
-    window.addEventListener('beforeprint', () => this.draw());
+    window.addEventListener('beforeprint', () => this.rest());
   }
 
   key(event) {
     const turns = { ArrowLeft: [6, 0], ArrowRight: [-6, 0], ArrowUp: [0, 6], ArrowDown: [0, -6] };
-    if (turns[event.key] && event.shiftKey) this.pan(...turns[event.key].map((v, k) => (k ? -4 : -4) * v));
+    if (turns[event.key] && event.shiftKey) this.pan(...turns[event.key].map((v) => -4 * v));
     else if (turns[event.key]) this.orbit(...turns[event.key]);
     else if (event.key === '+' || event.key === '=') this.zoomBy(1.25);
     else if (event.key === '-') this.zoomBy(0.8);
@@ -128,13 +137,14 @@ class Viewer {
   move(s) {
     this.s = s;
     this.slider.value = s;
-    this.load();
+    this.loaded = false;
     this.tell();
     this.soon();
   }
 
   load() {
     const quantity = this.quantity.value;
+    this.loaded = true;
     this.now = this.shapes.at(this.s, quantity, this.detail);
     this.painter.put(this.now.places);
     this.painter.fill('fabric', this.now.fabric, this.shapes.ranges[quantity]);
@@ -159,7 +169,7 @@ class Viewer {
     const state = this.shapes.states[this.s];
     const say = (name, text) => (this.root.querySelector(`[data-say=${name}]`).textContent = text);
     say('height', `${heightMm.toFixed(2)} mm`);
-    say('pitch', pitchMm === null ? 'none' : `${pitchMm.toFixed(2)} mm`);
+    say('pitch', pitchMm === null ? 'no loops touch' : `${pitchMm.toFixed(2)} mm`);
     const where = state && state.stop ? state.stop : this.s < this.stop('cold') ? 'being released' : 'being heated';
     const stiff = modulusGPa === null ? '' : `, wire of ${modulusGPa.toFixed(1)} GPa`;
     say('state', { flat: 'flat, as it is sewn', cold: 'cold', hot: 'hot' }[where] || where);
@@ -173,18 +183,36 @@ class Viewer {
   soon() {
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now) => {
       this.waiting = false;
-      const start = performance.now();
-      this.draw();
-      const took = performance.now() - start;
-      this.slow = took > SLOW_MS ? (this.slow || 0) + 1 : 0;
-      if (this.slow > 2 && this.detail < this.shapes.levels.length - 1) {
-        this.detail++;
-        this.slow = 0;
-        this.load();
-      }
+      this.judge(now - this.before);
+      this.before = now;
+      this.show(this.coarse, false);
+      clearTimeout(this.resting);
+      this.resting = setTimeout(() => this.rest(), REST_MS);
     });
+  }
+
+  // Frames that follow one another slowly make the next ones coarser.
+  judge(interval) {
+    if (interval > REST_MS) this.late = 0;
+    else this.late = interval > SLOW_MS ? (this.late || 0) + 1 : 0;
+    if (this.late < SLOW_FRAMES || this.coarse === this.shapes.levels.length - 1) return;
+    this.coarse++;
+    this.late = 0;
+  }
+
+  rest() {
+    this.before = -Infinity;
+    this.show(this.finest, true);
+  }
+
+  show(detail, fine) {
+    if (detail !== this.detail) this.loaded = false;
+    this.detail = detail;
+    this.fine = fine;
+    if (!this.loaded) this.load();
+    this.draw();
   }
 
   // Rows: right, up, toward the eye.
@@ -196,19 +224,21 @@ class Viewer {
   }
 
   draw() {
-    const ratio = Math.min(window.devicePixelRatio || 1, this.shapes.loops > 100 ? 1 : 2);
+    const own = window.devicePixelRatio || 1;
+    const ratio = this.fine ? Math.max(own, 2) : this.slowly ? 0.8 : Math.min(own, 2);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(height * ratio);
+    const [columns, rows] = [Math.round(width * ratio), Math.round(height * ratio)];
+    if (this.canvas.width !== columns) this.canvas.width = columns;
+    if (this.canvas.height !== rows) this.canvas.height = rows;
     const [right, up, toward] = this.axes();
     // pixels of the page for a millimetre
-    this.scale = (this.zoom * 0.46 * Math.min(width, height * 1.35)) / this.radius;
+    this.scale = this.zoom * Math.min((0.43 * width) / this.half[0], (0.36 * height) / this.half[1]);
     const x = (2 * this.scale) / width, y = (2 * this.scale) / height, z = -1 / (4 * this.radius);
     const [moved, raised] = [(2 * this.shift[0]) / width, (-2 * this.shift[1]) / height];
-    const columns = [0, 1, 2].flatMap((k) => [x * right[k], y * up[k], z * toward[k], 0]);
+    const moves = [0, 1, 2].flatMap((k) => [x * right[k], y * up[k], z * toward[k], 0]);
     const turn = [0, 1, 2].flatMap((k) => [right[k], up[k], toward[k]]);
-    this.painter.draw([...columns, moved, raised, 0, 1], turn, this.now.pitchMm);
+    this.painter.draw([...moves, moved, raised, 0, 1], turn, this.now.pitchMm);
     this.dimensions(width, height, right, up);
   }
 
@@ -268,7 +298,7 @@ function dimension([x1, y1], [x2, y2], words) {
   const f = (v) => v.toFixed(1);
   const tick = (x, y) => `M${f(x - nx)},${f(y - ny)}L${f(x + nx)},${f(y + ny)}`;
   const level = Math.abs(x2 - x1) > Math.abs(y2 - y1);
-  const [tx, ty] = level ? [(x1 + x2) / 2, (y1 + y2) / 2 + 18] : [(x1 + x2) / 2 + 9, (y1 + y2) / 2 + 4];
+  const [tx, ty] = level ? [(x1 + x2) / 2, Math.max(y1, y2) + 19] : [(x1 + x2) / 2 + 9, (y1 + y2) / 2 + 4];
   return `<path d="M${f(x1)},${f(y1)}L${f(x2)},${f(y2)}${tick(x1, y1)}${tick(x2, y2)}"/>` +
     `<text x="${f(tx)}" y="${f(ty)}" text-anchor="${level ? 'middle' : 'start'}">${words}</text>`;
 }
