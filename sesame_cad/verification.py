@@ -19,6 +19,7 @@ from sesame_cad.package import file_data
 from sesame_cad.pipeline import Design, design
 from sesame_cad.reading import Reading
 from sesame_cad.report.page import REPORT_FILE
+from sesame_cad.report_checks import report_faults
 from sesame_cad.solid_checks import solid_faults, solid_sizes_mm
 from sesame_cad.specification import specification_from
 from sesame_cad.staging import DESIGN_FILE
@@ -198,10 +199,22 @@ def _check_shapes(reading: Reading) -> Faults:
             yield from (f"{path}: {fault}" for fault in solid_faults(content, size))
 
 
+def _check_report(reading: Reading) -> Faults:
+    """The page shows the stitches of the DST file."""
+    content = reading.content(REPORT_FILE)
+    try:
+        records = reading.dst
+    except DesignFileError:
+        return  # which is told of that file
+    if content is not None and records is not None:
+        yield from (f"{REPORT_FILE}: {fault}" for fault in report_faults(content, records))
+
+
 CHECKS: tuple[Callable[[Reading], Faults], ...] = (
     _check_files,
     _check_numbers,
     _check_stitches,
     _check_cut,
     _check_shapes,
+    _check_report,
 )

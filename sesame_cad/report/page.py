@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from html import escape
 from importlib.resources import files
@@ -16,6 +15,7 @@ from patterns.violation import Violation
 from sesame_cad.pipeline import Design
 from sesame_cad.report.circuit_drawing import circuit_drawing
 from sesame_cad.report.cut_drawing import cut_drawing
+from sesame_cad.report.embedding import embedded
 from sesame_cad.report.file_links import file_links
 from sesame_cad.report.sections import (
     block_items,
@@ -25,7 +25,7 @@ from sesame_cad.report.sections import (
     warnings_section,
 )
 from sesame_cad.report.shape_view import shape_view
-from sesame_cad.report.stitch_view import stitch_view
+from sesame_cad.report.stitch_view import STITCH_DATA, stitch_view
 from sesame_cad.report.tables import circuits_table, inputs_table
 
 Data = dict[str, Any]
@@ -82,10 +82,10 @@ def report_html(
         inputs=inputs_table(data),
         files=file_links(["design.json", *data["files"]]),
         data="\n".join(
-            _embedded(name, value)
+            embedded(name, value)
             for name, value in (
                 ("shape-data", shape),
-                ("stitch-data", stitches),
+                (STITCH_DATA, stitches),
                 ("colours", {"fabric": _colours("viridis"), "wire": _colours("plasma")}),
             )
             if value is not None
@@ -96,13 +96,6 @@ def report_html(
 
 def _asset(name: str) -> str:
     return (files("sesame_cad.report") / "assets" / name).read_text(encoding="utf-8")
-
-
-def _embedded(name: str, value: Any) -> str:
-    """Put data into the page; no text in it can end the element that holds it."""
-    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    safe = text.replace("<", "\\u003c")
-    return f'<script type="application/json" id="{name}">{safe}</script>'
 
 
 def _colours(name: str) -> list[list[int]]:

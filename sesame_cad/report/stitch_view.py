@@ -14,10 +14,13 @@ from patterns.rules.catalogue import CATALOGUE
 from patterns.violation import Violation
 from sesame_cad.drawing_colours import stage_colour
 from sesame_cad.pipeline import Design
-from sesame_cad.report.packing import packed_integers, packed_reals
+from sesame_cad.report.packing import packed_integers, packed_reals, unpacked
 from sesame_cad.threads import Thread, threads_of
 
 Data = dict[str, Any]
+
+STITCH_DATA = "stitch-data"
+"""Name of the data in the page."""
 
 CODES = (Command.STITCH, Command.JUMP, Command.STOP, Command.END)
 """Commands by their number in the page."""
@@ -59,6 +62,13 @@ def stitch_view(design: Design, records: Records, violations: Sequence[Violation
             for one in violations
         ],
     }
+
+
+def viewed_records(data: Data) -> Records:
+    """Read the records back out of what `stitch_view` gave."""
+    names = np.array([str(command) for command in CODES])
+    steps = unpacked(data["steps"]).astype(np.int64)
+    return Records(names[unpacked(data["commands"])], np.cumsum(steps, axis=0))
 
 
 def _codes(records: Records) -> NDArray[np.uint8]:

@@ -17,6 +17,7 @@ from sesame_cad.files.dst import decode_dst
 from sesame_cad.package import write_package
 from sesame_cad.pipeline import design
 from sesame_cad.report.cell_view import cell_view
+from sesame_cad.report.embedding import embedded, read_embedded
 from sesame_cad.report.fabric_fields import fabric_fields
 from sesame_cad.report.packing import packed_integers, packed_reals, unpacked
 from sesame_cad.report.page import report_html
@@ -24,7 +25,8 @@ from sesame_cad.report.phase_diagram import phase_diagram
 from sesame_cad.report.recovery import at_vertices
 from sesame_cad.report.sheet_view import sheet_view
 from sesame_cad.report.solved_path import solved_path
-from sesame_cad.report.stitch_view import CODES, stitch_view
+from sesame_cad.report.stitch_view import STITCH_DATA, stitch_view, viewed_records
+from sesame_cad.report_checks import report_faults
 from sesame_cad.specification import load_specification, specification_from
 from sesame_cad.state import solve_state
 from solver.compact import solve_loop
@@ -90,10 +92,6 @@ class Links(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.found += [value for key, value in attrs if key in {"href", "src", "srcset", "data"}]
-
-
-def embedded(text, name):
-    return json.loads(re.search(f'id="{name}">(.*?)</script>', text, re.DOTALL)[1])
 
 
 def test_packed_numbers_come_back():
@@ -242,14 +240,26 @@ def test_coupled_shapes_are_three_meshes():
 
 def test_the_page_holds_the_records_of_the_dst_file(stitched):
     _, target, _, records = stitched
-    data = embedded((target / "report.html").read_text(), "stitch-data")
-    steps = unpacked(data["steps"]).astype(int)
-    assert np.array_equal(np.cumsum(steps, axis=0), records.xy)
-    commands = np.array([str(code) for code in CODES])[unpacked(data["commands"])]
-    assert np.array_equal(commands, records.command)
+    data = read_embedded((target / "report.html").read_text(), STITCH_DATA)
+    shown = viewed_records(data)
+    assert np.array_equal(shown.xy, records.xy)
+    assert np.array_equal(shown.command, records.command)
     stops = int(np.sum(records.command == Command.STOP))
     assert len(data["blocks"]) == stops + 1
     assert data["violations"] == []
+
+
+def test_a_page_with_other_stitches_is_found(stitched):
+    made, target, data, records = stitched
+    assert list(report_faults((target / "report.html").read_bytes(), records)) == []
+    moved = records.xy.copy()
+    moved[5:] += (3, 0)
+    other = replace(records, xy=moved)
+    page = report_html(made, data, other).encode()
+    assert list(report_faults(page, records)) == ["its stitches are not those of the DST file"]
+    for content in (b"", b"\xff", embedded(STITCH_DATA, {"steps": 1}).encode()):
+        (fault,) = report_faults(content, records)
+        assert len(fault.splitlines()) == 1
 
 
 def test_the_page_is_what_the_design_says(stitched):
@@ -287,7 +297,7 @@ def test_a_name_cannot_break_out_of_the_page(stitched):
     text = report_html(made, data | {"name": evil}, records, broken)
     assert evil not in text
     assert "<b>&" not in text.split("<main>")[0]
-    assert embedded(text, "stitch-data")["violations"][0]["text"].startswith(f"net: {evil}")
+    assert read_embedded(text, STITCH_DATA)["violations"][0]["text"].startswith(f"net: {evil}")
 
 
 def test_broken_rules_are_told_and_placed(stitched):
