@@ -1,7 +1,7 @@
 // The 3-D view: orbit, zoom, slider, colour scales, and dimensions on the model.
 
 const SLOW_MS = 34, SLOW_FRAMES = 3; // after so many slower frames, motion is drawn coarser
-const REST_MS = 180; // after so long without motion it is drawn finer
+const REST_MS = 350; // after so long without motion it is drawn finer
 // The most triangles to draw in motion and at rest, where the processor draws them and where not.
 const MOST_TRIANGLES = { slow: [35000, 200000], quick: [700000, 3000000] };
 
@@ -46,19 +46,16 @@ class Viewer {
     this.half = [0, 1].map((k) => Math.max(...bounds.map((one) => one[k])));
   }
 
-  // How far anything is from the middle, as seen: to the side, up or down, and in space.
+  // How far anything is from the middle, at most: as seen to the side, up or down, and in space.
   bounds(s) {
     const { chain, places, pitchMm } = this.shapes.at(s, 'stretch', this.shapes.levels.length - 1);
     const [right, up] = this.axes();
-    const far = [0, 0, 0];
-    for (const [x, y] of places) {
-      for (let i = 0; i < chain.length; i += 3) {
-        const p = [chain[i] + x * pitchMm, chain[i + 1] + y * pitchMm, chain[i + 2]];
-        const seen = [right, up].map((axis) => Math.abs(axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]));
-        [...seen, Math.hypot(...p)].forEach((v, k) => (far[k] = Math.max(far[k], v)));
-      }
-    }
-    return far;
+    const farthest = (points, length) => points.reduce((most, point) => Math.max(most, length(point)), 0);
+    const loop = Array.from({ length: chain.length / 3 }, (_, k) => chain.subarray(3 * k, 3 * k + 3));
+    const seen = [right, up].map((axis) => (p) => Math.abs(axis[0] * p[0] + axis[1] * p[1] + axis[2] * (p[2] || 0)));
+    return [...seen, (p) => Math.hypot(...p)].map(
+      (length) => farthest(loop, length) + pitchMm * farthest(places, length),
+    );
   }
 
   listen() {
@@ -225,7 +222,7 @@ class Viewer {
 
   draw() {
     const own = window.devicePixelRatio || 1;
-    const ratio = this.fine ? Math.max(own, 2) : this.slowly ? 0.8 : Math.min(own, 2);
+    const ratio = this.fine ? Math.max(own, 2) : this.slowly ? (this.shapes.loops > 100 ? 0.6 : 0.8) : Math.min(own, 2);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
     const [columns, rows] = [Math.round(width * ratio), Math.round(height * ratio)];
