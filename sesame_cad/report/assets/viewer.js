@@ -222,7 +222,7 @@ class Viewer {
 
   draw() {
     const own = window.devicePixelRatio || 1;
-    const ratio = this.fine ? Math.max(own, 2) : this.slowly ? (this.shapes.loops > 100 ? 0.6 : 0.8) : Math.min(own, 2);
+    const ratio = this.fine ? Math.max(own, 2) : this.slowly ? 0.8 : Math.min(own, 2);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
     const [columns, rows] = [Math.round(width * ratio), Math.round(height * ratio)];
