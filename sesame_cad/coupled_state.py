@@ -119,9 +119,13 @@ class CoupledState:
     @property
     def pitch_mm(self) -> float | None:
         """Mean distance after release of the centres of touching loops; None without any."""
+        return self.pitch_at_mm(self.found.positions)
+
+    def pitch_at_mm(self, positions: Vectors) -> float | None:
+        """Give the same for other positions (n, 3) of the mesh's vertices, in units of length."""
         if not self.contacts:
             return None
-        places = self.found.positions * self.radius_mm
+        places = positions * self.radius_mm
         centres = np.array([places[wire.vertices].mean(axis=0) for wire in self.found.mesh.wires])
         one, other = np.array(self.contacts).T
         return float(np.linalg.norm(centres[other] - centres[one], axis=1).mean())

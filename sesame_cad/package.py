@@ -8,6 +8,7 @@ from pathlib import Path
 from patterns.records import Records, plan_records
 from sesame_cad.coupled_state import CoupledState
 from sesame_cad.design_data import design_data
+from sesame_cad.files.dst import decode_dst
 from sesame_cad.files.plan_svg import plan_svg
 from sesame_cad.package_files import (
     Data,
@@ -21,6 +22,7 @@ from sesame_cad.package_files import (
 from sesame_cad.pictures.plan import plan_picture
 from sesame_cad.pictures.shapes import AnyView, ShapeView, SheetView, shapes_picture
 from sesame_cad.pipeline import Design, design
+from sesame_cad.report.page import REPORT_FILE, report_html
 from sesame_cad.shape_files import shape_files
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.sleeve.package import sleeve_files
@@ -62,7 +64,12 @@ def write_design(made: Design, target: Path, progress: Progress) -> Data:
 def _fill(folder: Path, made: Design, progress: Progress) -> Data:
     records = plan_records(made.pattern.plan, made.spec.patterns_machine())
     data_of = partial(design_data, made, records)
-    return write_files(folder, _files(made, records, progress), data_of)
+    return write_files(
+        folder,
+        _files(made, records, progress),
+        data_of,
+        lambda data: _report(made, data, folder, progress),
+    )
 
 
 def _files(made: Design, records: Records, progress: Progress) -> Files:
@@ -91,6 +98,15 @@ def pictures(made: Design, progress: Progress = lambda _: None) -> Files:
         progress("picture of the shapes")
         views = [_view(made.spec, state) for state in made.states]
         yield "pictures/shapes.png", shapes_picture(views)
+
+
+def _report(made: Design, data: Data, folder: Path, progress: Progress) -> Files:
+    """Show the design with the stitches that the written DST file holds."""
+    progress("report")
+    spec = made.spec
+    written = (folder / f"stitch/{spec.name}.dst").read_bytes()
+    records = decode_dst(written, spec.dst_switches()).records
+    yield REPORT_FILE, report_html(made, data, records).encode()
 
 
 def _view(spec: Specification, state: ShapeState) -> AnyView:

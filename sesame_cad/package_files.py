@@ -26,7 +26,10 @@ Files = Iterator[tuple[str, bytes]]
 
 
 def write_files(
-    folder: Path, contents: Iterable[tuple[str, bytes]], data_of: Callable[[dict[str, Data]], Data]
+    folder: Path,
+    contents: Iterable[tuple[str, bytes]],
+    data_of: Callable[[dict[str, Data]], Data],
+    pages_of: Callable[[Data], Iterable[tuple[str, bytes]]] = lambda _: (),
 ) -> Data:
     """Write files and, last, `design.json`.
 
@@ -36,21 +39,30 @@ def write_files(
         Path in the folder and content of each file.
     data_of
         Gives what `design.json` holds from size and hash of the files.
+    pages_of
+        Gives files that show what `design.json` holds, once the others are written.
 
     Returns
     -------
     dict
         What `design.json` holds.
     """
+    files = _written(folder, contents)
+    data = data_of(files)
+    data["files"] = dict(sorted({**files, **_written(folder, pages_of(data))}.items()))
+    text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+    (folder / DESIGN_FILE).write_bytes(f"{text}\n".encode())
+    return data
+
+
+def _written(folder: Path, contents: Iterable[tuple[str, bytes]]) -> dict[str, Data]:
+    """Write files, and tell size and hash of each by its path."""
     files: dict[str, Data] = {}
     for path, content in contents:
         (folder / path).parent.mkdir(exist_ok=True)
         (folder / path).write_bytes(content)
         files[path] = file_data(content)
-    data = data_of(dict(sorted(files.items())))
-    text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
-    (folder / DESIGN_FILE).write_bytes(f"{text}\n".encode())
-    return data
+    return dict(sorted(files.items()))
 
 
 def file_data(content: bytes) -> Data:

@@ -18,25 +18,30 @@ def print_design(data: Data, folder: Path) -> None:
     """Print the numbers that decide whether an array is worth sewing; warnings come first."""
     console = Console(highlight=False)
     shown = [name for name in ("cold", "hot") if data[name] is not None]
-    for name in shown:
-        for left in data[name]["omitted_terms"]:
-            if left["matters"]:
-                console.print(
-                    f"[yellow]warning[/]: {name}: {left['term']} is left out, and matters: "
-                    f"{left['measure']} = {left['value']:.3g}"
-                )
-    for warning in data["electrics"]["warnings"]:
+    for warning in warnings(data):
         console.print(f"[yellow]warning[/]: {warning}", soft_wrap=True)
     if shown:
-        console.print(grid(_model_rows(data)))
+        console.print(grid(model_rows(data)))
         console.print(_states(data))
         for name in shown:
             if data[name]["rung"] == "mesh":
                 console.print(_coupled_line(name, data[name]))
     else:
         console.print(f'{data["name"]}: no shape is predicted (layout.shape = "none")')
-    console.print(grid(_workshop_rows(data)))
+    console.print(grid(workshop_rows(data)))
     console.print(f"wrote {folder}/", soft_wrap=True)
+
+
+def warnings(data: Data) -> list[str]:
+    """Give what may spoil the array, a line each; none if all is well."""
+    left_out = [
+        f"{name}: {left['term']} is left out, and matters: {left['measure']} = {left['value']:.3g}"
+        for name in ("cold", "hot")
+        if data[name] is not None
+        for left in data[name]["omitted_terms"]
+        if left["matters"]
+    ]
+    return [*left_out, *data["electrics"]["warnings"]]
 
 
 def print_answer(data: Data) -> None:
@@ -45,7 +50,7 @@ def print_answer(data: Data) -> None:
     energy_terms: Data = data["energy_terms"] or {}
     rows = [
         ("rung", f"{data['rung']}: {data['reason']}"),
-        ("shape", _shape_name(data)),
+        ("shape", shape_name(data)),
         ("height / perimeter", f"{data['height_over_perimeter']:.6f}"),
         ("error of the height", _number(data["height_error"], ".1e")),
         ("height / radius", _number(data["height_over_radius"], ".6f")),
@@ -165,11 +170,13 @@ def _number(value: float | None, style: str) -> str:
     return "" if value is None else format(value, style)
 
 
-def _shape_name(state: Data) -> str:
+def shape_name(state: Data) -> str:
+    """Say whether a loop is buckled."""
     return "saddle" if state["buckled"] else "flat (below the buckling threshold)"
 
 
-def _model_rows(data: Data) -> list[tuple[str, str]]:
+def model_rows(data: Data) -> list[tuple[str, str]]:
+    """Name and value of what decides the shape, of a design that has one."""
     return [
         ("design", data["name"]),
         ("β cold, hot", f"{data['beta']:.5f}, {data['beta_hot']:.5f}"),
@@ -201,7 +208,7 @@ def _states(data: Data) -> Table:
         width, depth = state["footprint_mm"]
         table.add_row(
             name,
-            _shape_name(state),
+            shape_name(state),
             f"{state['height_mm']:.2f} mm",
             f"{state['height_over_perimeter']:.4f}",
             "" if state["pitch_mm"] is None else f"{state['pitch_mm']:.2f} mm",
@@ -222,7 +229,8 @@ def _coupled_line(name: str, state: Data) -> str:
     )
 
 
-def _workshop_rows(data: Data) -> list[tuple[str, str]]:
+def workshop_rows(data: Data) -> list[tuple[str, str]]:
+    """Name and value of what the workshop needs to know."""
     circuit, stitch = data["circuit"], data["stitch"]
     width, height = stitch["extent_mm"]
     return [

@@ -21,6 +21,8 @@ from sesame_cad.package_checks import (
 )
 from sesame_cad.pipeline import Design, design
 from sesame_cad.reading import Reading
+from sesame_cad.report.page import REPORT_FILE
+from sesame_cad.report_checks import report_faults
 from sesame_cad.shape_files import shape_paths
 from sesame_cad.sleeve.design import sleeve_design
 from sesame_cad.sleeve.verification import checked_sleeves
@@ -107,6 +109,7 @@ def _expected_files(made: Design) -> Iterator[str]:
     yield from (f"stitch/{name}.{kind}" for kind in (*made.spec.output.formats, "blocks.csv"))
     yield f"plan/{name}.svg"
     yield f"worksheet/{name}.pdf"
+    yield REPORT_FILE
     yield from (f"cut/{name}.{kind}" for kind in ("svg", "dxf"))
     if made.spec.output.pictures:
         yield "pictures/plan.png"
@@ -132,10 +135,22 @@ def _check_shapes(reading: Reading) -> Faults:
             yield from (f"{path}: {fault}" for fault in faults)
 
 
+def _check_report(reading: Reading) -> Faults:
+    """The page shows the stitches of the DST file."""
+    content = reading.content(REPORT_FILE)
+    try:
+        records = reading.dst
+    except DesignFileError:
+        return  # which is told of that file
+    if content is not None and records is not None:
+        yield from (f"{REPORT_FILE}: {fault}" for fault in report_faults(content, records))
+
+
 CHECKS: tuple[Callable[[Reading], Faults], ...] = (
     _check_files,
     _check_numbers,
     sewn_faults,
     fabric_faults,
     _check_shapes,
+    _check_report,
 )

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
 from xml.etree import ElementTree
 
 import numpy as np
 
 from patterns.circuit import Circuit, Diameters
 from patterns.loop_order import loops_in_order
-from patterns.path import Arc, Piece, WirePath
 from patterns.plan import UNITS_PER_MM, Block, Points
 from sesame_cad.drawing_colours import MARK, block_colour, stage_colour
 from sesame_cad.files.sheet import Sheet, lay_out
@@ -23,6 +21,7 @@ from sesame_cad.files.svg_page import (
     svg_page,
     svg_text,
 )
+from sesame_cad.files.wire_path import wire_path
 from sesame_cad.pipeline import Pattern
 
 _LINE = "fill:none;stroke-linejoin:round;stroke-width:"
@@ -64,7 +63,7 @@ def draw_plan(
     diameters_mm = laid.circuit.of_stages(wire_diameter_mm)
     for k, stage in enumerate(laid.circuit.stages):
         style = f"{_LINE}{number(diameters_mm[k])};stroke-opacity:0.5;stroke:{stage_colour(k)}"
-        add_layer(root, f"{prefix}WIRE-{k + 1}", style, [_wire_path(sheet, stage)])
+        add_layer(root, f"{prefix}WIRE-{k + 1}", style, [wire_path(sheet, stage)])
     for k, block in enumerate(laid.plan.blocks, start=1):
         colour = block_colour(block)
         style = f"{_LINE}{_STITCH_MM};stroke:{colour}"
@@ -72,28 +71,6 @@ def draw_plan(
         dots = f"{_LINE}{_NEEDLE_MM};stroke-linecap:round;stroke:{colour}"
         add_layer(root, f"{prefix}NEEDLES-{k}", dots, [_needles(sheet, block)])
     _add_labels(root, sheet, laid.circuit, f"{prefix}LABELS")
-
-
-def _wire_path(sheet: Sheet, path: WirePath) -> str:
-    (start,), _ = path.pieces[0].at(np.zeros(1))
-    x, y = sheet.on_page(start[None])[0]
-    return f"M {number(x)},{number(y)}" + "".join(
-        part for piece in path.pieces for part in _piece(sheet, piece)
-    )
-
-
-def _piece(sheet: Sheet, piece: Piece) -> Iterator[str]:
-    """Path data from the end of the piece before; no arc is more than half a circle."""
-    parts = 1
-    if isinstance(piece, Arc):
-        parts = max(1, int(np.ceil(abs(piece.sweep_rad) / pi - 1e-9)))
-    ends, _ = piece.at(np.arange(1, parts + 1) * piece.length_mm / parts)
-    for x, y in sheet.on_page(ends).tolist():
-        if isinstance(piece, Arc):
-            radius, sweep = number(piece.radius_mm), int(piece.sweep_rad < 0)  # y is down there
-            yield f" A {radius},{radius} 0 0,{sweep} {number(x)},{number(y)}"
-        else:
-            yield f" L {number(x)},{number(y)}"
 
 
 def _stitches(sheet: Sheet, block: Block) -> str:

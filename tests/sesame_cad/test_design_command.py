@@ -81,6 +81,7 @@ def test_files_are_listed_with_size_and_hash(large_array):
         "shape/hot.vtu",
         "pictures/plan.png",
         "pictures/shapes.png",
+        "report.html",
     }
 
 
