@@ -58,7 +58,8 @@ class PieceCells:
         distance = self._to_whole_mm(points_mm, piece)
         x, y = points_mm[:, 0] - self._x[piece], points_mm[:, 1] - self._y[piece]
         sweep = self._sweep[piece]
-        turn = np.mod(np.sign(sweep) * (np.arctan2(y, x) - self._a[piece]), 2 * np.pi)
+        # an arc of no length has a sign, too
+        turn = np.mod(np.copysign(1.0, sweep) * (np.arctan2(y, x) - self._a[piece]), 2 * np.pi)
         beyond = turn > np.abs(sweep)
         lines = np.flatnonzero(self._radius[piece] == 0)
         a, b = self._a[piece[lines]], self._b[piece[lines]]

@@ -37,7 +37,7 @@ from sesame_cad.sleeve.design import SleeveDesign
 from sesame_cad.sleeve.package import FORCE_FILE, PREDICTED_PICTURES, sheet_lines
 from sesame_cad.sleeve.pattern import LOWER, tie_violations
 from sesame_cad.sleeve_prediction.solids import segment_solids
-from sesame_cad.solid_checks import Size, solid_faults
+from sesame_cad.solid_checks import Size, shape_faults
 from sesame_cad.staging import DESIGN_FILE
 
 Data = dict[str, Any]
@@ -145,4 +145,4 @@ def _solid_sizes_mm(made: SleeveDesign) -> dict[str, Size]:
 def _solid_faults(reading: Reading, path: str, size_mm: Size) -> Faults:
     content = reading.content(path)
     if content is not None:
-        yield from (f"{path}: {fault}" for fault in solid_faults(content, size_mm))
+        yield from (f"{path}: {fault}" for fault in shape_faults(content, ".stl", size_mm))

@@ -62,3 +62,11 @@ def test_the_same_stretch_of_wire_can_be_left_out() -> None:
     away = (np.array([9.9]), 1.0)
     assert WIRE.nearest(place, 1.0).distance_mm[0] == pytest.approx(0.0, abs=1e-9)
     assert WIRE.nearest(place, 1.0, away_from=away).distance_mm[0] == inf
+
+
+@pytest.mark.parametrize("sweep", [0.0, -0.0])
+def test_an_arc_of_no_length_is_a_point(sweep: float) -> None:
+    """A gap of an ellipse's arcs may close to nothing; its circle is not there."""
+    wire = WireIndex(WirePath((Arc(0.0, 0.0, 5.0, 0.0, sweep), Line(5.0, 0.0, 5.0, -1.0))))
+    nearest = wire.nearest(np.array([[0.0, 5.1], [5.0, 0.5]]), 20.0)
+    assert nearest.distance_mm == pytest.approx([np.hypot(5.0, 5.1), 0.5])

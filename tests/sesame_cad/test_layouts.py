@@ -158,6 +158,7 @@ def test_a_design_without_a_shape_has_stitches_and_cuts_only(run_design, tmp_pat
         "cut/array.svg",
         "cut/array.dxf",
         "pictures/plan.png",
+        "report.html",
     }
     assert verify(tmp_path / "out") == ()
 
