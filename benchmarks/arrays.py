@@ -50,7 +50,7 @@ COLUMNS = (
     "lowest eigenvalue",
     "compressed",
 )
-FINE_LOOPS = (0, 1, 2, 3, 4, 5, 6)
+FINE_LOOPS = (0, 1, 2, 3, 4, 5, 6, 7)
 PLAIN, FIELD, CUT = "plain fabric", "tension field", "gaps cut"
 COLOURS = {PLAIN: "#0072B2", FIELD: "#D55E00", CUT: "#009E73"}
 
@@ -171,8 +171,8 @@ def table(arrays, loops):
     yield ""
     yield "`python -m benchmarks.arrays`, one thread, each solve in a process of its own. Scene:"
     yield "ε = 0.3, β = 0.0145, ν = 0.3, fabric between the loops kept, or cut where that is said,"
-    yield f"wires bonded; {SEGMENTS * 2**REFINEMENT} edges a loop (a fan of {SEGMENTS} triangles refined"
-    yield f"{REFINEMENT} times). {platform.machine()}, Python {platform.python_version()}. No"
+    yield f"wires bonded; {SEGMENTS * 2**REFINEMENT} edges a loop (a fan of {SEGMENTS} triangles"
+    yield f"refined {REFINEMENT} times). {platform.machine()}, Python {platform.python_version()}. No"
     yield "contact: a shape may pass through itself. Each is a minimum: small gradient, no"
     yield "negative eigenvalue; with a tension field, no way down that"
     yield "gains a millionth of the energy. It is *a* minimum: arrays with their fabric kept have"
