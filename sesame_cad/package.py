@@ -16,13 +16,12 @@ from sesame_cad.files.dst import write_dst
 from sesame_cad.files.dxf import outline_dxf
 from sesame_cad.files.plan_svg import plan_svg
 from sesame_cad.files.stitch_formats import write_embroidery
-from sesame_cad.files.stl import write_stl
 from sesame_cad.files.svg import outline_svg
 from sesame_cad.pictures.plan import plan_picture
 from sesame_cad.pictures.shapes import AnyView, ShapeView, SheetView, shapes_picture
 from sesame_cad.pictures.worksheet import worksheet_pdf
 from sesame_cad.pipeline import Design, design
-from sesame_cad.preview import solids
+from sesame_cad.shape_files import shape_files
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory
@@ -51,15 +50,24 @@ def write_package(spec: Specification, target: Path, progress: Progress) -> dict
         When there is no shape to rely on.
     """
     with staged_directory(target) as folder:
-        made = design(spec, progress)
-        records = plan_records(made.pattern.plan, spec.patterns_machine())
-        files: dict[str, dict[str, Any]] = {}
-        for path, content in _files(made, records, progress):
-            _write(folder / path, content)
-            files[path] = file_data(content)
-        data = design_data(made, records, dict(sorted(files.items())))
-        text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
-        _write(folder / DESIGN_FILE, f"{text}\n".encode())
+        return _fill(folder, design(spec, progress), progress)
+
+
+def write_design(made: Design, target: Path, progress: Progress) -> dict[str, Any]:
+    """Write the folder of a design that was made; see `write_package`."""
+    with staged_directory(target) as folder:
+        return _fill(folder, made, progress)
+
+
+def _fill(folder: Path, made: Design, progress: Progress) -> dict[str, Any]:
+    records = plan_records(made.pattern.plan, made.spec.patterns_machine())
+    files: dict[str, dict[str, Any]] = {}
+    for path, content in _files(made, records, progress):
+        _write(folder / path, content)
+        files[path] = file_data(content)
+    data = design_data(made, records, dict(sorted(files.items())))
+    text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+    _write(folder / DESIGN_FILE, f"{text}\n".encode())
     return data
 
 
@@ -88,18 +96,20 @@ def _files(made: Design, records: Records, progress: Progress) -> Iterator[tuple
     progress("worksheet")
     sheet = worksheet(made, records)
     yield f"worksheet/{spec.name}.pdf", worksheet_pdf(sheet, laid, spec.output.paper)
-    for name, solid in solids(made, progress):
-        yield f"shape/{name}.stl", write_stl(solid, f"{spec.name} {name}")
+    yield from shape_files(made, progress)
     if spec.output.pictures:
-        progress("picture of the wire path")
-        yield (
-            "pictures/plan.png",
-            plan_picture(laid.circuit, laid.plan, laid.outline, laid.marks),
-        )
-        if made.states:
-            progress("picture of the shapes")
-            views = [_view(made.spec, state) for state in made.states]
-            yield "pictures/shapes.png", shapes_picture(views)
+        yield from pictures(made, progress)
+
+
+def pictures(made: Design, progress: Progress = lambda _: None) -> Iterator[tuple[str, bytes]]:
+    """Draw the wire's path, and the shapes if there are any; by their paths in the folder."""
+    laid = made.pattern
+    progress("picture of the wire path")
+    yield "pictures/plan.png", plan_picture(laid.circuit, laid.plan, laid.outline, laid.marks)
+    if made.states:
+        progress("picture of the shapes")
+        views = [_view(made.spec, state) for state in made.states]
+        yield "pictures/shapes.png", shapes_picture(views)
 
 
 def _view(spec: Specification, state: ShapeState) -> AnyView:

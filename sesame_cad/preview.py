@@ -4,75 +4,45 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-import numpy as np
 import trimesh
-from numpy.typing import NDArray
 
-from sesame_cad.coupled_state import CoupledState
+from sesame_cad.bodies import Body, flat_bodies, released_bodies
 from sesame_cad.pipeline import Design
 from sesame_cad.shape_state import ShapeState
-from sesame_cad.sheet_shape import SheetShape
-from sesame_cad.sheet_solid import sheet_solid
-from sesame_cad.solids import Surface, array_solid, boundary_segments, cell_solid
+from sesame_cad.solids import array_solid, union_solid
 from sesame_cad.specification import Specification
-
-Vectors = NDArray[np.float64]
-
-CHORD_TOLERANCE_MM = 0.05
-"""The boundary's chords keep this near the solved curve."""
-
-FABRIC_RINGS = 10
-WIRE_SIDES = 12
 
 
 def state_solid(spec: Specification, state: ShapeState) -> trimesh.Trimesh:
     """Solid of the released array."""
-    if isinstance(state, CoupledState):
-        return _sheet(spec, state.shape)
-    return _array(spec, state.surface, state.centres_mm())
+    return joined(released_bodies(spec, state))
 
 
 def flat_solid(spec: Specification, state: ShapeState) -> trimesh.Trimesh:
-    """Solid of the array as it is sewn: flat loops at the pitch of their diameter."""
-    if isinstance(state, CoupledState):
-        return _sheet(spec, state.flat_shape)
-    radius_mm = spec.layout.diameter_mm / 2
-
-    def disc(radius: Vectors, angle_rad: Vectors) -> Vectors:
-        x, y = radius * np.cos(angle_rad), radius * np.sin(angle_rad)
-        return radius_mm * np.stack([x, y, np.zeros_like(x)], axis=1)
-
-    centres = state.centres_mm() * (spec.layout.diameter_mm / state.pitch_mm)
-    return _array(spec, disc, centres)
+    """Solid of the array as it is sewn."""
+    return joined(flat_bodies(spec, state))
 
 
-def solids(
+def joined(bodies: tuple[Body, ...]) -> trimesh.Trimesh:
+    """Join bodies that all stand in the same places into one solid.
+
+    Raises
+    ------
+    InputError
+        When the union does not come out as one closed solid.
+    """
+    one = union_solid((body.points, body.faces) for body in bodies)
+    places = bodies[0].places_mm
+    return array_solid(one, places) if len(places) > 1 else one
+
+
+def previews(
     design: Design, progress: Callable[[str], None] = lambda _: None
-) -> Iterator[tuple[str, trimesh.Trimesh]]:
+) -> Iterator[tuple[str, tuple[Body, ...]]]:
     """Give the three previews by name, one after the other; none of a design without a shape."""
     for state in design.states[:1]:
         progress("preview: flat")
-        yield "flat", flat_solid(design.spec, state)
+        yield "flat", flat_bodies(design.spec, state)
     for state in design.states:
         progress(f"preview: {state.name}")
-        yield state.name, state_solid(design.spec, state)
-
-
-def _sheet(spec: Specification, shape: SheetShape) -> trimesh.Trimesh:
-    return sheet_solid(shape, fabric_thickness_mm=spec.preview_thickness_mm, sides=WIRE_SIDES)
-
-
-def _array(spec: Specification, surface: Surface, centres_mm: Vectors) -> trimesh.Trimesh:
-    def boundary(angle_rad: Vectors) -> Vectors:
-        return surface(np.ones_like(angle_rad), angle_rad)
-
-    cell = cell_solid(
-        surface,
-        boundary,
-        wire_diameter_mm=spec.wire.diameter_mm,
-        fabric_thickness_mm=spec.preview_thickness_mm,
-        rings=FABRIC_RINGS,
-        segments=boundary_segments(boundary, CHORD_TOLERANCE_MM),
-        sides=WIRE_SIDES,
-    )
-    return array_solid(cell, centres_mm)
+        yield state.name, released_bodies(design.spec, state)

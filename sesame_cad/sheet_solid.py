@@ -1,36 +1,31 @@
-"""Printable solid of any array: slabs of fabric joined with tubes of wire."""
+"""Any array as it is drawn: slabs of fabric and tubes of wire."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from sesame_cad.sheet_shape import Piece, SheetShape, open_edges
-from sesame_cad.solids import RIM_SHARE, quads, tube_mesh, union_solid
+from sesame_cad.solids import RIM_SHARE, ClosedSurface, quads, tube_mesh
 from sesame_cad.watertight import vertex_normals
 
 Vectors = NDArray[np.float64]
 Triangles = NDArray[np.int64]
 
 
-def sheet_solid(shape: SheetShape, *, fabric_thickness_mm: float, sides: int) -> trimesh.Trimesh:
-    """Join fabric and wires into one solid, in mm.
-
-    Raises
-    ------
-    InputError
-        When the union does not come out as one closed solid.
-    """
+def sheet_bodies(
+    shape: SheetShape, *, fabric_thickness_mm: float, sides: int
+) -> tuple[list[ClosedSurface], list[ClosedSurface]]:
+    """Make slabs of the pieces of fabric, and tubes of the wires, in mm."""
     rim_mm = min(fabric_thickness_mm, RIM_SHARE * min(shape.diameters_mm))
     slabs = [slab(piece, fabric_thickness_mm, rim_mm) for piece in shape.pieces]
     tubes = [
         tube_mesh(around(chain), diameter, len(chain), sides)
         for chain, diameter in zip(shape.wires, shape.diameters_mm, strict=True)
     ]
-    return union_solid([*slabs, *tubes])
+    return slabs, tubes
 
 
 def around(chain: Vectors) -> Callable[[Vectors], Vectors]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import trimesh
@@ -20,6 +20,9 @@ Surface = Callable[[Vectors, Vectors], Vectors]
 
 Boundary = Callable[[Vectors], Vectors]
 """From angle (n,) in radians to points (n, 3) in mm."""
+
+ClosedSurface = tuple[Vectors, Triangles]
+"""Points (n, 3) in mm and faces (m, 3), turned outward."""
 
 RIM_SHARE = 0.6
 """The fabric's edge is at most this share of the wire, so that it ends well inside the tube."""
@@ -41,7 +44,7 @@ def boundary_segments(boundary: Boundary, tolerance_mm: float = 0.05) -> int:
     return segments
 
 
-def cell_solid(
+def cell_bodies(
     surface: Surface,
     boundary: Boundary,
     *,
@@ -50,8 +53,8 @@ def cell_solid(
     rings: int,
     segments: int,
     sides: int,
-) -> trimesh.Trimesh:
-    """Join a slab of fabric and the tube of wire around it.
+) -> tuple[ClosedSurface, ClosedSurface]:
+    """Make a slab of fabric, and the tube of wire around it.
 
     Parameters
     ----------
@@ -69,8 +72,8 @@ def cell_solid(
 
     Returns
     -------
-    trimesh.Trimesh
-        Watertight, in mm.
+    slab, tube : tuple
+        Points (n, 3) in mm and faces (m, 3) each.
 
     Raises
     ------
@@ -81,11 +84,10 @@ def cell_solid(
     if faults:
         raise InputError(*faults)
     slab = _slab(surface, wire_diameter_mm, fabric_thickness_mm, rings, segments)
-    tube = tube_mesh(boundary, wire_diameter_mm, segments, sides)
-    return union_solid([slab, tube])
+    return slab, tube_mesh(boundary, wire_diameter_mm, segments, sides)
 
 
-def union_solid(parts: list[tuple[Vectors, Triangles]]) -> trimesh.Trimesh:
+def union_solid(parts: Iterable[ClosedSurface]) -> trimesh.Trimesh:
     """Join closed surfaces, each points and faces, into one solid.
 
     Raises

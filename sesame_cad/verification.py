@@ -18,7 +18,8 @@ from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.package import file_data
 from sesame_cad.pipeline import Design, design
 from sesame_cad.reading import Reading
-from sesame_cad.solid_checks import solid_faults, solid_sizes_mm
+from sesame_cad.shape_files import shape_paths
+from sesame_cad.solid_checks import shape_faults, shape_sizes_mm
 from sesame_cad.specification import specification_from
 from sesame_cad.staging import DESIGN_FILE
 from sesame_cad.stitch_checks import stitch_faults
@@ -147,7 +148,7 @@ def _expected_files(made: Design) -> Iterator[str]:
     if made.spec.output.pictures:
         yield "pictures/plan.png"
     if made.states:
-        yield from (f"shape/{kind}.stl" for kind in ("flat", "cold", "hot"))
+        yield from shape_paths(made)
         if made.spec.output.pictures:
             yield "pictures/shapes.png"
 
@@ -188,12 +189,13 @@ def _check_cut(reading: Reading) -> Faults:
 
 
 def _check_shapes(reading: Reading) -> Faults:
-    """STL files are watertight solids of the predicted size."""
-    for name, size in solid_sizes_mm(reading.made).items():
-        path = f"shape/{name}.stl"
+    """Files of shapes have the predicted size; STL files are watertight solids."""
+    sizes = shape_sizes_mm(reading.made)
+    for path in shape_paths(reading.made):
         content = reading.content(path)
         if content is not None:
-            yield from (f"{path}: {fault}" for fault in solid_faults(content, size))
+            faults = shape_faults(content, Path(path).suffix, sizes[path])
+            yield from (f"{path}: {fault}" for fault in faults)
 
 
 CHECKS: tuple[Callable[[Reading], Faults], ...] = (

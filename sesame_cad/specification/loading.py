@@ -38,7 +38,10 @@ def load_specification(
 
 
 def specification_from(
-    mapping: Mapping[str, object], name: str, source: str = "specification"
+    mapping: Mapping[str, object],
+    name: str,
+    source: str = "specification",
+    overrides: Mapping[str, object] | None = None,
 ) -> Specification:
     """Make a specification from sections of keys.
 
@@ -50,13 +53,15 @@ def specification_from(
         The design's name when the mapping has no key ``name``.
     source
         Where the values come from; every fault begins with it.
+    overrides
+        Values that replace others, by key with its section.
 
     Raises
     ------
     InputError
         With every fault on a line of its own.
     """
-    return _specification(mapping, name, source, {}, Path())
+    return _specification(mapping, name, source, overrides or {}, Path())
 
 
 def _specification(

@@ -10,12 +10,18 @@ from sesame_cad.specification.section import Allowed, Section
 
 NOTES = Allowed("at most 2000 printable characters and line ends")
 
+ShapeFormat = Literal["stl", "3mf", "glb", "vtu"]
+
 StitchFormat = Literal["dst", "exp", "u01", "pes", "jef", "vp3"]
 
 
 def _dst_first(formats: tuple[StitchFormat, ...]) -> tuple[StitchFormat, ...]:
     # Whatever else is asked for, the rules are checked on the DST file: it is always written.
     return tuple(dict.fromkeys(("dst", *formats)))
+
+
+def _once(formats: tuple[ShapeFormat, ...]) -> tuple[ShapeFormat, ...]:
+    return tuple(dict.fromkeys(formats))
 
 
 def _readable(text: str) -> str:
@@ -31,6 +37,14 @@ class OutputSection(Section):
         default=("dst",),
         strict=False,  # TOML's lists are not tuples
         description="the stitch files' formats (words); dst is always written",
+    )
+    shapes: Annotated[tuple[ShapeFormat, ...], AfterValidator(_once)] = Field(
+        default=("stl", "3mf", "glb", "vtu"),
+        strict=False,
+        description=(
+            "the formats of the shapes (words): stl for printing, 3mf for printing with two "
+            "materials, glb for viewers, vtu with stretch and stress for ParaView"
+        ),
     )
     preview_thickness_mm: float | None = Field(
         default=None,

@@ -44,24 +44,25 @@ class TriangleEnergy:
         """Deformation gradient (m, 3, 2) from the unstretched fabric."""
         return np.swapaxes(corners, 1, 2) @ self.shape_gradients
 
-    def _strain(self, corners: Vectors) -> Vectors:
+    def strain(self, corners: Vectors) -> Vectors:
+        """Green–Lagrange strain (E₁₁, E₂₂, 2E₁₂) of each triangle, (m, 3)."""
         return _green_lagrange(self._deformation(corners))
 
     def stress(self, corners: Vectors) -> Vectors:
         """Second Piola–Kirchhoff stress (S₁₁, S₂₂, S₁₂) of each triangle, (m, 3), units of E_f."""
-        return self.law.stress(self._strain(corners))
+        return self.law.stress(self.strain(corners))
 
     def smallest_stress(self, corners: Vectors) -> Vectors:
         """Smaller principal stress (m,) of each triangle, units of E_f."""
-        return self.law.smallest_stress(self._strain(corners))
+        return self.law.smallest_stress(self.strain(corners))
 
     def compressed(self, corners: Vectors) -> Flags:
         """Whether each triangle is compressed, or wrinkled instead, (m,)."""
-        return self.law.compressed(self._strain(corners))
+        return self.law.compressed(self.strain(corners))
 
     def energies(self, corners: Vectors) -> Vectors:
         """Energy (m,) of each triangle."""
-        return self.areas * self.law.density(self._strain(corners))
+        return self.areas * self.law.density(self.strain(corners))
 
     def derivatives(
         self, corners: Vectors, curvature: Curvature
@@ -86,8 +87,8 @@ class TriangleEnergy:
     def excess(self, corners: Vectors, move: Vectors, reached: Vectors) -> Vectors:
         """Pulls (m, 9) of the strain that a move brings beyond what is linear in it."""
         slope = self._strain_slope(self._deformation(corners))
-        meant = self._strain(corners) + (slope @ move.reshape(-1, 9, 1))[:, :, 0]
-        beyond = self.law.stress(self._strain(reached)) - self.law.stress(meant)
+        meant = self.strain(corners) + (slope @ move.reshape(-1, 9, 1))[:, :, 0]
+        beyond = self.law.stress(self.strain(reached)) - self.law.stress(meant)
         return ((self.areas[:, None] * beyond)[:, None, :] @ slope)[:, 0]
 
     def _strain_slope(self, deformation: Vectors) -> Vectors:

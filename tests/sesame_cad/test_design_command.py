@@ -27,6 +27,8 @@ PER_STATE = {
     "omitted_terms",
 }
 
+SHAPES = ("stl", "3mf", "glb")
+
 
 def _without_seconds(data):
     return {
@@ -74,9 +76,9 @@ def test_files_are_listed_with_size_and_hash(large_array):
         "stitch/large-array.dst",
         "cut/large-array.svg",
         "cut/large-array.dxf",
-        "shape/flat.stl",
-        "shape/cold.stl",
-        "shape/hot.stl",
+        *(f"shape/{name}.{kind}" for name in ("flat", "cold", "hot") for kind in SHAPES),
+        "shape/cold.vtu",
+        "shape/hot.vtu",
         "pictures/plan.png",
         "pictures/shapes.png",
     }
