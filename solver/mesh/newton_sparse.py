@@ -1,9 +1,9 @@
 """Minimisation with sparse second derivatives in a trust region.
 
-The true Hessian is tried first. Where its factorisation shows negative pivots, a stiffer one that
-has none becomes the metric, and the true Hessian still shapes the step: it leaves saddle points
-along their negative directions. If that takes too much stiffness, the convex part of the elements'
-Hessians is the metric.
+The true Hessian is tried first. Where its factorisation shows negative pivots, the convex part of
+the elements' Hessians takes over as the metric, and the true Hessian still shapes the step: it
+leaves saddle points along their negative directions. Of wrinkled fabric a slightly stiffer Hessian
+is tried before: what the convex part leaves out matters more there.
 """
 
 from __future__ import annotations
@@ -109,7 +109,7 @@ class _Search:
 
     def metric(self, state: _State, true_entries: Vectors) -> tuple[Vectors, Product]:
         """Entries of a positive definite matrix near a Hessian that is not, and its inverse."""
-        for lent in _LENT:
+        for lent in _LENT if self.limits.steady else ():
             entries = self.held(true_entries, lent)
             factored = self.factored(entries)
             if factored.negative == 0:

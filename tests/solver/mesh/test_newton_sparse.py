@@ -217,7 +217,7 @@ def test_a_search_stalls_when_many_steps_in_a_row_gain_next_to_nothing(
 
 def _metric(positions, monkeypatch, lent):
     monkeypatch.setattr(newton_sparse, "_LENT", lent)
-    limits, mass = SearchLimits(), np.repeat(mass_of(MESH), 3)
+    limits, mass = SearchLimits(steady=True), np.repeat(mass_of(MESH), 3)
     search = _Search(ENERGY, mass, factoriser(ENERGY.pattern), limits, _Account())
     state = search.state(positions)
     true = search.held(state.entries, 0.0)
