@@ -50,7 +50,7 @@ COLUMNS = (
     "lowest eigenvalue",
     "compressed",
 )
-FINE_LOOPS = (0, 1, 2, 3, 4, 5, 6)
+FINE_LOOPS = (0, 1, 2, 3, 4, 5, 6, 7)
 PLAIN, FIELD, CUT = "plain fabric", "tension field", "gaps cut"
 COLOURS = {PLAIN: "#0072B2", FIELD: "#D55E00", CUT: "#009E73"}
 

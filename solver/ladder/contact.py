@@ -25,6 +25,9 @@ LARGEST_IN_CONTACT = 6000
 """Triangles of a mesh on which contact is not even begun."""
 WITHOUT = "take the shape without contact (--contact off), which tells how often it crosses itself"
 
+_MOST_STEPS = 150
+"""Of the last solve with contact, each of which costs as much as many without: what has not settled
+by then is refused rather than waited for."""
 _SAMPLE = 2
 """Rows and columns, at most, of the array that tells whether a large one meets itself."""
 
@@ -54,6 +57,7 @@ class InContact:
         solved = solve_in_contact(
             self._scene,
             refinement=refinement,
+            most_steps=_MOST_STEPS,
             tension_field=found.tension_field,
             allow_unreliable=lenient,
             before=found.distances,

@@ -2,7 +2,8 @@
 
 The true Hessian is tried first. Where its factorisation shows negative pivots, the convex part of
 the elements' Hessians takes over as the metric, and the true Hessian still shapes the step: it
-leaves saddle points along their negative directions.
+leaves saddle points along their negative directions. Of wrinkled fabric a slightly stiffer Hessian
+is tried before: what the convex part leaves out matters more there.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from solver.mesh.correction import Move, corrected
 from solver.mesh.elements import Curvature
 from solver.mesh.factorization import Factored, Factoriser
-from solver.mesh.krylov import QuadraticModel, Step, symmetric_product, trust_region_step
+from solver.mesh.krylov import Product, QuadraticModel, Step, symmetric_product, trust_region_step
 from solver.mesh.mesh_energy import Energy
 from solver.mesh.search import SearchLimits, SparseMinimum
 
@@ -24,6 +25,9 @@ Vectors = NDArray[np.float64]
 _FREE_MOTION = 1e-5
 """Stiffness, in units of E_f t, lent to motions that have none, such as rigid ones."""
 _CONVEX_FREE_MOTION = 1e-4
+_LENT = (0.03, 0.3, 3.0)
+"""Stiffness, in units of E_f t, that makes a Hessian with negative eigenvalues a metric; the first
+that is enough. All but a few of its eigenvalues are the Hessian's own: few iterations solve it."""
 _ROUNDING = 1e-13
 _NEXT_TO_NOTHING = 1e-10
 """Part of the energy that a minimum may lack along an all but free motion."""
@@ -99,11 +103,20 @@ class _Search:
         gradient = state.gradient.ravel()
         if factored.negative == 0:
             return QuadraticModel(gradient, hessian, hessian, factored.solve, convex=True)
-        convex = self.energy.derivatives(state.positions, Curvature.CONVEX)[2]
-        convex = self.held(convex, _CONVEX_FREE_MOTION)
-        inverse = self.factored(convex).solve
-        metric = symmetric_product(pattern, convex)
+        entries, inverse = self.metric(state, true_entries)
+        metric = symmetric_product(pattern, entries)
         return QuadraticModel(gradient, hessian, metric, inverse, convex=False)
+
+    def metric(self, state: _State, true_entries: Vectors) -> tuple[Vectors, Product]:
+        """Entries of a positive definite matrix near a Hessian that is not, and its inverse."""
+        for lent in _LENT if self.limits.steady else ():
+            entries = self.held(true_entries, lent)
+            factored = self.factored(entries)
+            if factored.negative == 0:
+                return entries, factored.solve
+        convex = self.energy.derivatives(state.positions, Curvature.CONVEX)[2]
+        entries = self.held(convex, _CONVEX_FREE_MOTION)
+        return entries, self.factored(entries).solve
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,12 @@ def test_a_mesh_too_large_for_contact_is_told(monkeypatch):
         solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5)
 
 
+def test_contact_that_does_not_settle_is_refused_with_a_remedy(monkeypatch):
+    monkeypatch.setattr(contact, "_MOST_STEPS", 2)
+    with pytest.raises(NotConvergedError, match=r"after 2 steps .* raise beta or lower strain"):
+        solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5)
+
+
 def test_who_asks_for_the_shape_nevertheless_is_told_what_it_lacks(monkeypatch):
     monkeypatch.setattr(contact, "contact_available", lambda: False)
     crossed = solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5, allow_unreliable=True)

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from solver.mesh import newton_sparse
 from solver.mesh.descent import mass_of
 from solver.mesh.factorization import available, factoriser
 from solver.mesh.krylov import (
@@ -13,7 +14,7 @@ from solver.mesh.krylov import (
     symmetric_product,
     trust_region_step,
 )
-from solver.mesh.newton_sparse import _stalled, minimise_sparse
+from solver.mesh.newton_sparse import _Account, _Search, _stalled, minimise_sparse
 from solver.mesh.problem import loop_problem
 from solver.mesh.rigid import lowest_eigenvalue, rigid_motions
 from solver.mesh.search import SearchLimits
@@ -212,3 +213,27 @@ def test_a_search_stalls_when_many_steps_in_a_row_gain_next_to_nothing(
     values = 1.0 - gain * np.arange(steps)
     state = SimpleNamespace(value=float(values[-1]), gradient_norm=gradient)
     assert bool(_stalled(_search(values, gradient=1e-8, steady=steady), state)) is stalled
+
+
+def _metric(positions, monkeypatch, lent):
+    monkeypatch.setattr(newton_sparse, "_LENT", lent)
+    limits, mass = SearchLimits(steady=True), np.repeat(mass_of(MESH), 3)
+    search = _Search(ENERGY, mass, factoriser(ENERGY.pattern), limits, _Account())
+    state = search.state(positions)
+    true = search.held(state.entries, 0.0)
+    entries, inverse = search.metric(state, true)
+    return _dense(true), _dense(entries), inverse, np.diag(mass)
+
+
+@pytest.mark.parametrize(
+    ("lent", "enough"), [((20.0,), 20.0), ((5.0, 20.0), 20.0), ((5.0,), None), ((), None)]
+)
+def test_metric_at_a_saddle_point_is_positive_definite(lent, enough, monkeypatch):
+    """The flat loop's lowest eigenvalue is -9.0 E_f t; beyond the ladder only elements are left."""
+    true, metric, inverse, mass = _metric(_flat_equilibrium(), monkeypatch, lent)
+    assert np.linalg.eigvalsh(true)[0] < 0 < np.linalg.eigvalsh(metric)[0]
+    right = np.arange(len(metric)) % 7 - 3.0
+    assert metric @ inverse(right) == pytest.approx(right, abs=1e-6)
+    for stiffness in (5.0, 20.0):
+        lends = abs(metric - true - stiffness * mass).max() < 1e-9
+        assert lends == (stiffness == enough)
