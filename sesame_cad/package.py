@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from patterns.records import Records, plan_records
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.design_data import design_data
 from sesame_cad.files.block_list import block_list_csv
 from sesame_cad.files.dst import write_dst
@@ -26,6 +25,7 @@ from sesame_cad.preview import solids
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.staging import DESIGN_FILE, staged_directory
+from sesame_cad.state import CellState
 from sesame_cad.threads import threads_of
 from sesame_cad.worksheet import worksheet
 
@@ -106,7 +106,7 @@ def _view(spec: Specification, state: ShapeState) -> AnyView:
     height = f"{state.height_mm:.1f} mm high" if state.buckled else "flat"
     pitch = "" if state.pitch_mm is None else f", pitch {state.pitch_mm:.1f} mm"
     title = f"{state.name}: {height}{pitch}"
-    if isinstance(state, CoupledState):
+    if not isinstance(state, CellState):
         return SheetView(title, state.shape)
     return ShapeView(
         title,

@@ -8,13 +8,13 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.pipeline import Design
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.sheet_shape import SheetShape
 from sesame_cad.sheet_solid import sheet_solid
 from sesame_cad.solids import Surface, array_solid, boundary_segments, cell_solid
 from sesame_cad.specification import Specification
+from sesame_cad.state import CellState
 
 Vectors = NDArray[np.float64]
 
@@ -27,14 +27,14 @@ WIRE_SIDES = 12
 
 def state_solid(spec: Specification, state: ShapeState) -> trimesh.Trimesh:
     """Solid of the released array."""
-    if isinstance(state, CoupledState):
+    if not isinstance(state, CellState):
         return _sheet(spec, state.shape)
     return _array(spec, state.surface, state.centres_mm())
 
 
 def flat_solid(spec: Specification, state: ShapeState) -> trimesh.Trimesh:
     """Solid of the array as it is sewn: flat loops at the pitch of their diameter."""
-    if isinstance(state, CoupledState):
+    if not isinstance(state, CellState):
         return _sheet(spec, state.flat_shape)
     radius_mm = spec.layout.diameter_mm / 2
 

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from patterns.layout import Layout
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.errors import DesignFileError
 from sesame_cad.files.stl import read_stl
 from sesame_cad.pipeline import Design
+from sesame_cad.state import CellState
 
 HEIGHT_TOLERANCE_MM = 0.01
 FOOTPRINT_TOLERANCE_MM = 0.1
@@ -25,7 +25,7 @@ def solid_sizes_mm(made: Design) -> dict[str, Size]:
     for state in made.states:
         width, depth = _laid_size_mm(made.pattern.circuit.layout)
         sizes["flat"] = (width + wire, depth + wire, wire)
-        if isinstance(state, CoupledState):
+        if not isinstance(state, CellState):
             sizes["flat"] = state.flat_shape.size_mm(made.spec.preview_thickness_mm)
             sizes[state.name] = state.shape.size_mm(made.spec.preview_thickness_mm)
             continue
