@@ -70,10 +70,11 @@ def _content_faults(path: str, content: bytes, made: CouponFiles) -> Faults:
         if kind == "dst":
             records = decode_dst(content, made.spec.dst_switches()).records
             yield from record_faults(records, made.records)
-        elif kind in made.spec.output.formats:
-            known = FORMATS[kind]
-            yield from record_faults(known.read(content), known.carried(made.records))
-        elif kind == "csv" and content != made.contents.get(path):
+        for other in made.spec.output.formats:
+            if other != "dst" and other == kind:
+                known = FORMATS[other]
+                yield from record_faults(known.read(content), known.carried(made.records))
+        if kind == "csv" and content != made.contents.get(path):
             yield "not the list of the plan's blocks"
     except DesignFileError as error:
         yield str(error)
