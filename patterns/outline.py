@@ -176,9 +176,9 @@ def _shrunk(fabric: Polygon, by_mm: float) -> BaseGeometry:
     would run into one another or into the outside.
     """
     steps = quarter_steps(by_mm)
-    outside: BaseGeometry = Polygon(fabric.exterior).buffer(-by_mm, quad_segs=steps)
+    outside = Polygon(fabric.exterior).buffer(-by_mm, quad_segs=steps)
     openings = buffer([Polygon(ring) for ring in fabric.interiors], by_mm, quad_segs=steps)
-    if isinstance(outside, Polygon) and not outside.is_empty:
+    if outside.geom_type == "Polygon" and not outside.is_empty:
         prepare(outside)
         first, _ = STRtree(openings).query(openings, predicate="intersects")
         whole = all(not one.interiors for one in openings)
