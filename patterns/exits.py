@@ -8,7 +8,6 @@ from math import pi
 
 import numpy as np
 from shapely import LineString, Polygon, STRtree, points
-from shapely.ops import substring
 
 from patterns.couching import FREE_TAIL_MM
 from patterns.errors import PatternError
@@ -136,8 +135,9 @@ class _Room:
         """The parts of both tails that no stitch holds: the first of one, the last of the other."""
         comes, goes = self._lines(place)
         free = min(FREE_TAIL_MM, self._tail_length_mm)
-        parts = substring(comes, 0.0, free), substring(goes, goes.length - free, goes.length)
-        return [part for part in parts if isinstance(part, LineString)]
+        first = comes.interpolate([0.0, free])
+        last = goes.interpolate([goes.length - free, goes.length])
+        return [LineString(first), LineString(last)]
 
     def _clear_of_loops(self, tail: LineString, start: int, own: Indices) -> bool:
         reach = self._clear_mm + _CHORD_MM + self._longest_mm

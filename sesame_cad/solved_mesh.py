@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.state import CellState
@@ -70,7 +69,7 @@ class SolvedMesh:
 
 def solved_mesh(spec: Specification, state: ShapeState) -> SolvedMesh:
     """Read a state on its mesh; a smooth shape on one fine enough for pictures."""
-    if isinstance(state, CoupledState):
+    if not isinstance(state, CellState):
         found = state.found
         positions = upright(found.mesh, found.positions)
         read = (found.mesh, positions, fabric_of(found.scene), found.tension_field)
