@@ -23,8 +23,10 @@ MOST_DEATHS = 10
 _SETTINGS = {
     "distributed.scheduler.allowed-failures": MOST_DEATHS,
     "distributed.logging.distributed": "critical",
-    # Dask has workers give memory back at once, and asking for it again takes longer than a solve
+    # Dask has workers give memory back at once, and asking for it again takes longer than a solve.
+    # Whoever sets the one keeps glibc from raising the other by itself; 32 MiB is its largest.
     "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 28,
+    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 25,
 }
 
 
@@ -38,6 +40,8 @@ def local_client(workers: int) -> Generator[Client]:
             threads_per_worker=1,
             processes=True,
             dashboard_address=cast("str", None),  # none: its annotation says otherwise
+            # its page of state is served all the same: at any free port, and seen from here alone
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
             silence_logs=logging.CRITICAL,
         ) as cluster,
         Client(cluster) as client,
