@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from solver.errors import SceneError
 from solver.loop_energy import scene_membrane
-from solver.mesh.array_mesh import Between, array_fan
+from solver.mesh.array_mesh import array_fan
 from solver.mesh.bonds import bond_energy
 from solver.mesh.levelling import levelling_energy
 from solver.mesh.loop_mesh import SEGMENTS, loop_fan
@@ -33,8 +33,6 @@ FEWEST_SEGMENTS = 12
 MOST_SEGMENTS = 80
 _LEVELLING = 1e-4
 """Lifts the shape's energy by less than that, times its mean square height, for each loop."""
-_LEVELLING_TILES = 1e-5
-"""Tiles stand level at the outset, and need only be kept from drifting along their hinges."""
 TENSION_FIELD_TERM = "fabric stretch (tension field)"
 LEVELLING_TERM = "levelling"
 _BOND = 1000.0
@@ -139,15 +137,14 @@ def array_problem(
 ) -> MeshProblem:
     """A grid of loops, each on a fan of so many triangles, refined so many times."""
     coarsest = array_fan(scene.grid, scene.between, scene.loop.axis_ratio, segments)
-    several = scene.rows * scene.columns > 1
+    bonded = scene.contact is Contact.BONDED and scene.rows * scene.columns > 1
     return MeshProblem(
         meshes=_refined(coarsest, refinement),
         strain=scene.loop.strain,
         fabric=scene_membrane(scene.loop).stiffness,
         wires=scene.stiffness,
-        bonded=scene.contact is Contact.BONDED and several,
+        bonded=bonded,
         tension_field=tension_field,
-        levelling=_LEVELLING_TILES if several and scene.between is Between.CUT else 0.0,
         alpha=scene.loop.alpha,
     )
 

@@ -120,6 +120,7 @@ def test_an_array_that_cannot_be_solved_says_so(monkeypatch):
     [
         (["--beta", "0.1:0.2"], "beta: '0.1:0.2' is no range"),
         (["--beta", "0.1:0.2:x"], "beta: count 'x'"),
+        (["--beta", "0.1:0.2:1"], "beta: count '1'"),
         (["--beta", "0.1,0.1"], "beta: '0.1,0.1' holds a value twice"),
         (["--beta", "0:0.2:3"], "beta = 0"),
         (["--strain", "0:3:4"], "strain = 3"),
