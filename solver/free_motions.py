@@ -44,13 +44,17 @@ def turn_of_fabric(shape: Expansion) -> Expansion:
 def _all_maps(basis: DiscBasis, motions: DiscBasis) -> tuple[Vectors, Vectors]:
     """The seven motions as functions of the shape: constant (7, m) and linear part (7, m, n)."""
     linear = np.zeros((7, motions.size, basis.size))
-    for i in range(basis.size):
-        unit = np.zeros(basis.size)
-        unit[i] = 1.0
-        shape = LoopShape(basis.unknowns, unit).expansion
+    held: dict[tuple[int, DiscFunction], list[tuple[int, float]]] = {}
+    for row, written in enumerate(motions.unknowns):
+        for term in written:
+            held.setdefault((term.component, term.function), []).append((row, term.weight))
+    for i, unknown in enumerate(basis.unknowns):
+        shape = LoopShape((unknown,), np.ones(1)).expansion
         found = [rotation(shape, *axes) for axes in ((0, 1), (0, 2), (1, 2))]
         for k, motion in enumerate([*found, turn_of_fabric(shape)]):
-            linear[3 + k, :, i] = from_expansion(motions.unknowns, motion)
+            for key, value in motion.items():
+                for row, weight in held.get(key, ()):
+                    linear[3 + k, row, i] += weight * value
     constant = np.zeros((7, motions.size))
     for k in range(3):
         constant[k] = from_expansion(motions.unknowns, translation(k))

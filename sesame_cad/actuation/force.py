@@ -23,6 +23,8 @@ TOLERANCE = 5e-3
 """Relative error of force and height that held loops are allowed at the least: where a plate
 touches, the error of smooth functions falls slowly."""
 
+_STEPS_OF_TRANSITION = 8
+
 
 class MeasuredTo(StrEnum):
     """From where the gap counts: the wire's centreline, as all lengths here, or its surface."""
@@ -198,6 +200,26 @@ class TemperaturePoint:
     temperature_C: float  # noqa: N815 - the unit's own spelling
     way: str
     point: ForcePoint
+
+
+def with_transitions(
+    law: Transformation,
+    temperatures_C: Sequence[float],  # noqa: N803
+) -> list[float]:
+    """Add to rising temperatures those, within their range, between which the wire transforms.
+
+    All that changes does so between these; evenly spaced ones may step over most of it.
+    """
+    low, high = min(temperatures_C), max(temperatures_C)
+    added = [
+        round(start + (finish - start) * k / _STEPS_OF_TRANSITION, 9)
+        for start, finish in (
+            (law.austenite_start_C, law.austenite_finish_C),
+            (law.martensite_finish_C, law.martensite_start_C),
+        )
+        for k in range(_STEPS_OF_TRANSITION + 1)
+    ]
+    return sorted({*temperatures_C, *(t for t in added if low <= t <= high)})
 
 
 def force_against_temperature(

@@ -51,9 +51,9 @@ def command(
     from sesame_cad.actuation.course_data import actuation_data
     from sesame_cad.actuation.course_files import actuation_files
     from sesame_cad.actuation.folder import write_folder
+    from sesame_cad.actuation.summary import print_actuation
     from sesame_cad.progress import telling
     from sesame_cad.specification import load_specification
-    from sesame_cad.summary import print_actuation
     from solver.errors import NotConvergedError
 
     given = _given(current=current, load=load, ambient=ambient)

@@ -190,7 +190,10 @@ def _infeasible(data: dict[str, Any]) -> str:
         bad = [cell for cell in data["cells"] if not cell["feasible"]]
         where = ", ".join(f"row {cell['row']} column {cell['column']}" for cell in bad[:3])
         more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
-        return f"{len(bad)} cells are out of reach ({where}{more}); each line shows the nearest"
+        return (
+            f"{len(bad)} cells are out of reach ({where}{more}); each line shows the nearest; "
+            "allow any wire (--wires 0.2mm:0.6mm), a larger --within, or choose another --pitch"
+        )
     wanted = ", ".join(f"{key} = {value:g}" for key, value in data["wanted"].items())
     if not data["answers"]:
         return f"{wanted}: no loop within the bounds buckles and can be solved; widen them"

@@ -42,7 +42,9 @@ LISTING = "force.json"
     help="Whether the gap counts to the wire's centreline or to its surface.",
 )
 @click.option(
-    "--temperatures", help="Force against the wire's temperature at one gap, such as 0..80C."
+    "--temperatures",
+    help="Force against the wire's temperature at one gap, such as 0..80C; those at which the wire "
+    "transforms are added to the points.",
 )
 @click.option("--output", "-o", type=click.Path(path_type=Path), help="Folder for curves.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, and nothing else, to stdout.")
@@ -67,8 +69,8 @@ def command(
 
     from sesame_cad.actuation.folder import write_folder
     from sesame_cad.actuation.force import MeasuredTo, check_gap, vice
+    from sesame_cad.actuation.summary import print_force
     from sesame_cad.specification import load_specification
-    from sesame_cad.summary import print_force
     from solver.errors import NotConvergedError
     from solver.plates import PlateAxis
 
@@ -98,7 +100,12 @@ def _solve(
     warm_C: list[float],  # noqa: N803
 ) -> tuple[dict[str, Any], dict[str, bytes]]:
     """Solve what is asked for; the tables and pictures of curves come with it."""
-    from sesame_cad.actuation.force import force_against_temperature, force_curve, force_point
+    from sesame_cad.actuation.force import (
+        force_against_temperature,
+        force_curve,
+        force_point,
+        with_transitions,
+    )
     from sesame_cad.actuation.force_data import (
         curve_data,
         point_data,
@@ -116,6 +123,7 @@ def _solve(
         files = gap_files(held, [cold], [hot])
         if warm_C:
             law = transformation(held.spec)
+            warm_C = with_transitions(law, warm_C)  # noqa: N806
             followed = force_against_temperature(held, law, gaps_mm[0], warm_C)
             data |= {"temperatures": temperature_data(held, followed)}
             files |= temperature_files(held, followed)

@@ -3,37 +3,22 @@
 from __future__ import annotations
 
 import os
-import re
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from sesame_cad.errors import InputError
+from sesame_cad.sweeps.fig_2 import FIG_2
 
 if TYPE_CHECKING:
-    from sesame_cad.sweeps.axis import Axis
     from sesame_cad.sweeps.plan import SweepPlan
     from sesame_cad.sweeps.store import SweepStore
-
-FIG_2 = MappingProxyType(
-    {
-        "strain": "0:0.5:26",
-        "beta": "0.01:0.25:25",
-        "poisson": "0.446",
-        "axial_stiffness": "1000",
-        "reading": "published",
-    }
-)
-"""The paper's Fig. 2; of Poisson's ratio, which it does not give, that which gives its heights."""
 
 LARGE = 20_000
 """Points from which a sweep of single loops is shared by all processors: they take ten seconds."""
 
 INTERRUPTED = 130
-
-_GRID = re.compile(r"([1-9][0-9]{0,2})\s*[x×]\s*([1-9][0-9]{0,2})")
 
 
 @click.command("sweep")
@@ -89,10 +74,12 @@ def command(
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if scheduler is not None and workers is not None:
         raise InputError("--workers starts processes here, --scheduler uses others: give one")
+    from sesame_cad.commands.sweep_plan import designs_plan, loops_plan
+
     if spec is None:
-        plan = _loops_plan(sets, state, dimensionless)
+        plan = loops_plan(sets, state, dimensionless)
     else:
-        plan = _designs_plan(spec, sets, state or "cold", dimensionless)
+        plan = designs_plan(spec, sets, state or "cold", dimensionless)
     plan.check()
     if parquet:
         _check_parquet()
@@ -117,91 +104,6 @@ def command(
         click.echo(json.dumps(data, indent=2, ensure_ascii=False))
     elif not quiet:
         _print(data, store.folder)
-
-
-def _axes(ranges: dict[str, str]) -> tuple[Axis, ...]:
-    from sesame_cad.sweeps.axis import parse_axis
-
-    axes: list[Axis] = []
-    faults: list[str] = []
-    for key, text in ranges.items():
-        try:
-            axes.append(parse_axis(key, text))
-        except ValueError as error:
-            faults.append(f"{key}: {error}")
-    if faults:
-        raise InputError(*faults)
-    return tuple(axes)
-
-
-def _loops_plan(sets: tuple[str, ...], state: str | None, given: dict[str, Any]) -> SweepPlan:
-    """Plan a sweep of the dimensionless model."""
-    if sets or state is not None:
-        raise InputError("--set and --state are keys of a specification: give SPEC")
-    from sesame_cad.sweeps.loops import KEYS, LoopModel
-    from sesame_cad.sweeps.plan import SweepPlan
-
-    axes = _axes({key: given[key] if given[key] is not None else FIG_2[key] for key in KEYS})
-    reading = given["reading"] or FIG_2["reading"]
-    grid = _GRID.fullmatch((given["loops"] or "1x1").strip())
-    if grid is None:
-        raise InputError(f"--loops: {given['loops']!r} is not rows x columns, such as 3x3")
-    rows, columns = int(grid[1]), int(grid[2])
-    if rows * columns == 1:
-        if given["between"] is not None:
-            raise InputError("--between: there is nothing between one loop; give --loops")
-        return SweepPlan(LoopModel(reading, given["tolerance"] or 1e-3), axes)
-    from sesame_cad.sweeps.arrays import ArrayModel
-
-    between, tolerance = given["between"] or "cut", given["tolerance"] or 0.1
-    return SweepPlan(ArrayModel(rows, columns, between, reading, tolerance), axes)
-
-
-def _designs_plan(
-    path: Path, sets: tuple[str, ...], state: str, given: dict[str, Any]
-) -> SweepPlan:
-    """Plan a sweep of a specification's keys."""
-    faults = [
-        f"--{option.replace('_', '-')}: not with SPEC, whose own keys say it"
-        for option, value in given.items()
-        if value is not None
-    ]
-    if faults:
-        raise InputError(*faults)
-    from sesame_cad.specification import load_specification
-    from sesame_cad.sweeps.designs import DesignModel, numeric_keys
-    from sesame_cad.sweeps.plan import SweepPlan
-
-    ranges: dict[str, str] = {}
-    for text in sets:
-        key, equals, values = text.partition("=")
-        key = key.strip()
-        if not equals:
-            faults.append(f"--set {text!r}: write KEY=RANGE, such as wire.diameter_mm=0.3:0.6:7")
-        elif key not in numeric_keys():
-            faults.append(f"--set {key}: {_no_such_key(key)}")
-        elif key in ranges:
-            faults.append(f"--set {key}: given twice")
-        else:
-            ranges[key] = values
-    if not sets:
-        faults.append("sweep what? give --set KEY=RANGE, such as wire.diameter_mm=0.3:0.6:7")
-    if faults:
-        raise InputError(*faults)
-    specification = load_specification(path)
-    mapping = specification.model_dump(mode="json", exclude_none=True)
-    coupled = specification.predicted_shape == "coupled"
-    return SweepPlan(DesignModel(mapping, state, coupled), _axes(ranges))
-
-
-def _no_such_key(key: str) -> str:
-    import difflib
-
-    from sesame_cad.sweeps.designs import numeric_keys
-
-    near = difflib.get_close_matches(key, numeric_keys(), n=1)
-    hint = f"; did you mean {near[0]}?" if near else ""
-    return f"no key of a specification that holds one number{hint}"
 
 
 def _check_parquet() -> None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import logging
 import os
+import signal
 from collections.abc import Generator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from threading import current_thread, main_thread
 from typing import Any, cast
 
 from dask import config  # pyright: ignore[reportPrivateImportUsage]
@@ -23,26 +25,46 @@ MOST_DEATHS = 10
 _SETTINGS = {
     "distributed.scheduler.allowed-failures": MOST_DEATHS,
     "distributed.logging.distributed": "critical",
-    # Dask has workers give memory back at once, and asking for it again takes longer than a solve
+    # Dask has workers give memory back at once, and asking for it again takes longer than a solve.
+    # Whoever sets the one keeps glibc from raising the other by itself; 32 MiB is its largest.
     "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 28,
+    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 25,
 }
 
 
 @contextmanager
 def local_client(workers: int) -> Generator[Client]:
     """Start a cluster of processes on this machine; one thread each, as small solves want it."""
-    with (
-        config.set(_SETTINGS),
-        LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,
-            dashboard_address=cast("str", None),  # none: its annotation says otherwise
-            silence_logs=logging.CRITICAL,
-        ) as cluster,
-        Client(cluster) as client,
-    ):
-        yield client
+    with config.set(_SETTINGS), ExitStack() as open_until_done:
+        with _leaving_interrupts_to_us():
+            cluster = open_until_done.enter_context(
+                LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    processes=True,
+                    dashboard_address=cast("str", None),  # none: its annotation says otherwise
+                    # its page of state is served all the same: at any free port, for us alone
+                    scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+                    silence_logs=logging.CRITICAL,
+                )
+            )
+        yield open_until_done.enter_context(Client(cluster))
+
+
+@contextmanager
+def _leaving_interrupts_to_us() -> Generator[None]:
+    """Start processes that do not hear Ctrl-C: this one closes them, and they have nothing to say.
+
+    Only the main thread of a program may say what becomes of signals.
+    """
+    if current_thread() is not main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager

@@ -117,16 +117,18 @@ def solve_array(
         _check_start(problem, start)
         solved = descend(problem, last, start, backend, most_steps)
     elif _tiles(scene):
+        # from the mesh before the last on, which tells how far the last may err
+        first = max(0, last - 1)
         loop = solve_loop_mesh(
             scene.loop,
-            refinement=refinement,
+            refinement=first,
             segments=segments,
             backend=backend,
             tension_field=tension_field,
         )
         tile = aligned_saddle(loop.mesh, loop.positions)
-        tiles = tiled_start(problem.meshes[-1], loop.mesh, tile)
-        solved = descend(problem, last, tiles, backend, most_steps)
+        tiles = tiled_start(problem.meshes[first], loop.mesh, tile)
+        solved = descend(problem, first, tiles, backend, most_steps)
     else:
         first = _COARSEST_ARRAY
         flat = array_start(problem.meshes[first])

@@ -93,6 +93,10 @@ def test_force_against_temperature(run_force, tmp_path):
     cold, hot = data["cold"]["force_N"], data["hot"]["force_N"]
     assert ways["heating", 0] == ways["heating", 50] == pytest.approx(cold, rel=0.01)
     assert ways["cooling", 50] == ways["cooling", 100] == pytest.approx(hot, rel=0.01)
+    # 0, 25, 50, 75 and 100 °C alone would step over all of the way from 60 to 70 °C
+    rising = [ways["heating", t] for t in (60, 62.5, 65, 67.5, 70)]
+    assert rising == sorted(rising)
+    assert rising[1] - cold > 0.05 * (hot - cold)
 
 
 @pytest.mark.parametrize(

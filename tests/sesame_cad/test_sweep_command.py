@@ -6,8 +6,10 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from sesame_cad.pictures.phase_diagram import _runs
 from sesame_cad.sweeps import arrays, here
 from sesame_cad.sweeps.arrays import ArrayModel
 from sesame_cad.sweeps.axis import parse_axis
@@ -118,6 +120,7 @@ def test_an_array_that_cannot_be_solved_says_so(monkeypatch):
     [
         (["--beta", "0.1:0.2"], "beta: '0.1:0.2' is no range"),
         (["--beta", "0.1:0.2:x"], "beta: count 'x'"),
+        (["--beta", "0.1:0.2:1"], "beta: count '1'"),
         (["--beta", "0.1,0.1"], "beta: '0.1,0.1' holds a value twice"),
         (["--beta", "0:0.2:3"], "beta = 0"),
         (["--strain", "0:3:4"], "strain = 3"),
@@ -232,6 +235,21 @@ def test_parquet_holds_the_same(sweep, tmp_path):
     assert table["buckled"] == [row["buckled"] == "yes" for row in rows]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="a terminal there asks in another way")
+def test_ctrl_c_is_the_programs_and_not_its_workers():
+    pytest.importorskip("distributed", reason="Dask is an optional extra")
+    cluster = import_module("sesame_cad.sweeps.cluster")
+    before = signal.getsignal(signal.SIGINT)
+    with cluster.local_client(1) as client:
+        assert signal.getsignal(signal.SIGINT) is before
+        (workers_own,) = client.run(signal.getsignal, signal.SIGINT).values()
+        (trim,) = client.run(os.environ.get, "MALLOC_TRIM_THRESHOLD_").values()
+        (mmap,) = client.run(os.environ.get, "MALLOC_MMAP_THRESHOLD_").values()
+    assert workers_own == signal.SIG_IGN
+    # either alone has every large array fetched from the system anew
+    assert int(trim) >= int(mmap) >= 1 << 25
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="workers are killed by a signal")
 def test_a_killed_worker_costs_only_time(tmp_path):
     pytest.importorskip("distributed", reason="Dask is an optional extra")
@@ -254,3 +272,13 @@ def test_a_killed_worker_costs_only_time(tmp_path):
         assert PLAN.chunks > 4
         assert killed[0] not in client.run(os.getpid).values()
     assert shared.table() == alone.table()
+
+
+def test_runs_of_a_mask_cover_it_once():
+    mask = np.random.default_rng(1).random((7, 9)) < 0.5
+    mask[2], mask[4] = True, False
+    covered = np.zeros(mask.shape, dtype=int)
+    for row, first, last in _runs(mask):
+        covered[row, first : last + 1] += 1
+    assert (covered == mask).all()
+    assert [run for run in _runs(mask) if run[0] in {2, 4}] == [(2, 0, 8)]

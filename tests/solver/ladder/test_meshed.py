@@ -119,3 +119,12 @@ def test_refinement_ends_at_a_number_of_triangles(monkeypatch):
     array = ArrayScene(LoopScene(0.3, 0.03, 0.3), 1, 2, Between.CUT)
     with pytest.raises(NotConvergedError, match=r"of 640 triangles, .* or solve fewer loops"):
         meshed.by_mesh(array, "tried", 1e-9, lenient=False)
+
+
+def test_tiles_tell_their_error():
+    loop = LoopScene(0.3, 0.0145, 0.3)
+    array = ArrayScene(loop, 1, 2, Between.CUT)
+    answer = solve_scene(array, fidelity=Fidelity.MESH, tolerance=0.1)
+    alone = solve_scene(loop).height_over_perimeter
+    assert 1e-4 < answer.height_error < 0.02
+    assert answer.height_over_perimeter == pytest.approx(alone, rel=2 * answer.height_error)
