@@ -54,7 +54,7 @@ def plan_figure(
     _draw_needles(axes, plan, seen_mm)
     _draw_thread(axes, plan, BlockKind.COVER, COVER, "thread cover")
     _draw_thread(axes, plan, BlockKind.STRIPES, STRIPE, "stripe")
-    _draw_thread(axes, plan, BlockKind.TIES, TIE, "tie to the other layer")
+    _draw_thread(axes, plan, BlockKind.TIES, TIE, "tie")
     arrow_mm = _arrow_mm(circuit, outline)
     for k, stage in enumerate(circuit.stages):
         points = stage.polyline(max(0.02, seen_mm / 2))
