@@ -132,7 +132,7 @@ def report(rows):
 
 
 def picture(rows):
-    figure = Figure(figsize=(6, 4), layout="constrained")
+    figure = Figure(figsize=(7.5, 4), layout="constrained")
     axes = figure.add_subplot()
     stitches = [row["stitches"] for row in rows]
     for stage in rows[0]["stages"]:
@@ -141,7 +141,7 @@ def picture(rows):
     axes.loglog(stitches, [total(rows[-1], 1) / stitches[-1] * n for n in stitches], "k:")
     axes.set_xlabel("stitches (dotted: in proportion)")
     axes.set_ylabel("seconds of processor time")
-    axes.legend(fontsize=7)
+    figure.legend(loc="outside right upper", fontsize=7)
     return png_bytes(figure)
 
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.sheet_shape import SheetShape
 from sesame_cad.sheet_solid import sheet_bodies
 from sesame_cad.solids import Surface, Triangles, boundary_segments, cell_bodies
 from sesame_cad.specification import Specification
+from sesame_cad.state import CellState
 
 Vectors = NDArray[np.float64]
 
@@ -54,14 +54,14 @@ class Body:
 
 def released_bodies(spec: Specification, state: ShapeState) -> tuple[Body, ...]:
     """Give the bodies of the released array, fabric before wire."""
-    if isinstance(state, CoupledState):
+    if not isinstance(state, CellState):
         return _sheet(spec, state.shape)
     return _cells(spec, state.surface, state.centres_mm())
 
 
 def flat_bodies(spec: Specification, state: ShapeState) -> tuple[Body, ...]:
     """Give those of the array as it is sewn: flat loops at the pitch of their diameter."""
-    if isinstance(state, CoupledState):
+    if not isinstance(state, CellState):
         return _sheet(spec, state.flat_shape)
     radius_mm = spec.layout.diameter_mm / 2
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from patterns.coupon import Cell, Coupon, coupon
 from patterns.errors import PatternError
-from patterns.records import plan_records
+from patterns.records import Records, plan_records
 from patterns.rules import check_plan
 from sesame_cad.design_data import machine_data, stitch_data
 from sesame_cad.errors import InputError
@@ -22,6 +23,27 @@ from sesame_cad.staging import DESIGN_FILE, staged_directory
 from sesame_cad.threads import threads_of
 
 Data = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class CouponFiles:
+    """A coupon as it is written.
+
+    Attributes
+    ----------
+    spec : Specification
+    records : Records
+        What its stitch files hold.
+    contents : dict
+        Bytes by path in the folder.
+    data : dict
+        What its `design.json` holds.
+    """
+
+    spec: Specification
+    records: Records
+    contents: dict[str, bytes]
+    data: Data
 
 
 def write_coupon(spec: Specification, target: Path) -> Data:
@@ -42,6 +64,24 @@ def write_coupon(spec: Specification, target: Path) -> Data:
     InputError
         When the coupon cannot be sewn, or the folder cannot be made.
     """
+    made = coupon_files(spec)
+    with staged_directory(target) as folder:
+        for path, content in made.contents.items():
+            (folder / path).parent.mkdir(exist_ok=True)
+            (folder / path).write_bytes(content)
+        text = json.dumps(made.data, indent=2, ensure_ascii=False, allow_nan=False)
+        (folder / DESIGN_FILE).write_text(f"{text}\n", encoding="utf-8")
+    return made.data
+
+
+def coupon_files(spec: Specification) -> CouponFiles:
+    """Plan and check a coupon, and make every file of it.
+
+    Raises
+    ------
+    InputError
+        When the coupon cannot be sewn.
+    """
     made = _checked(spec)
     records = plan_records(made.plan, spec.patterns_machine())
     threads = threads_of(made.plan, spec.machine)
@@ -61,15 +101,10 @@ def write_coupon(spec: Specification, target: Path) -> Data:
         "machine": spec.machine.model_dump(mode="json"),
         "cells": [_cell_data(cell, wire + needle) for cell in made.cells],
         "stitch": stitch_data(made.plan, records) | machine_data(spec.machine, made.plan),
+        "specification": spec.model_dump(mode="json"),
         "files": {path: file_data(content) for path, content in sorted(contents.items())},
     }
-    with staged_directory(target) as folder:
-        for path, content in contents.items():
-            (folder / path).parent.mkdir(exist_ok=True)
-            (folder / path).write_bytes(content)
-        text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
-        (folder / DESIGN_FILE).write_text(f"{text}\n", encoding="utf-8")
-    return data
+    return CouponFiles(spec, records, contents, data)
 
 
 def _checked(spec: Specification) -> Coupon:

@@ -6,7 +6,6 @@ from functools import partial
 from pathlib import Path
 
 from patterns.records import Records, plan_records
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.design_data import design_data
 from sesame_cad.files.dst import decode_dst
 from sesame_cad.files.plan_svg import plan_svg
@@ -29,6 +28,7 @@ from sesame_cad.sleeve.package import sleeve_files
 from sesame_cad.specification import Specification
 from sesame_cad.specification.layout import SLEEVE
 from sesame_cad.staging import staged_directory
+from sesame_cad.state import CellState
 
 
 def write_package(spec: Specification, target: Path, progress: Progress) -> Data:
@@ -113,7 +113,7 @@ def _view(spec: Specification, state: ShapeState) -> AnyView:
     height = f"{state.height_mm:.1f} mm high" if state.buckled else "flat"
     pitch = "" if state.pitch_mm is None else f", pitch {state.pitch_mm:.1f} mm"
     title = f"{state.name}: {height}{pitch}"
-    if isinstance(state, CoupledState):
+    if not isinstance(state, CellState):
         return SheetView(title, state.shape)
     return ShapeView(
         title,

@@ -24,7 +24,6 @@ from patterns.rules.insulation import INSULATION
 from patterns.rules.net import check_net
 from patterns.stitch_plan import stitch_plan
 from patterns.violation import Violation
-from sesame_cad.coupled_state import solve_coupled
 from sesame_cad.errors import InputError
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
@@ -131,6 +130,8 @@ def _state(
     """Predict the array cold or hot."""
     progress(f"{name} shape")
     if spec.predicted_shape == "coupled":
+        from sesame_cad.coupled_state import solve_coupled  # noqa: PLC0415 - slow to load
+
         layout = laid.circuit.layout
         return refusing(spec, partial(solve_coupled, spec, layout, name, progress))
     modulus = spec.wire.modulus_cold_GPa if name == "cold" else spec.wire.modulus_hot_GPa

@@ -10,7 +10,6 @@ import trimesh
 from numpy.typing import NDArray
 
 from patterns.layout import Layout
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.errors import DesignFileError
 from sesame_cad.files.glb import read_glb
 from sesame_cad.files.stl import read_stl
@@ -20,6 +19,7 @@ from sesame_cad.pipeline import Design
 from sesame_cad.shape_files import shape_paths
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.solved_mesh import solved_mesh
+from sesame_cad.state import CellState
 
 HEIGHT_TOLERANCE_MM = 0.01
 FOOTPRINT_TOLERANCE_MM = 0.1
@@ -73,7 +73,7 @@ def _solid_sizes_mm(made: Design) -> dict[str, Size]:
     for state in made.states:
         width, depth = _laid_size_mm(made.pattern.circuit.layout)
         sizes["flat"] = (width + wire, depth + wire, wire)
-        if isinstance(state, CoupledState):
+        if not isinstance(state, CellState):
             sizes["flat"] = state.flat_shape.size_mm(made.spec.preview_thickness_mm)
             sizes[state.name] = state.shape.size_mm(made.spec.preview_thickness_mm)
             continue

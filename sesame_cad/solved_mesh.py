@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sesame_cad.coupled_state import CoupledState
 from sesame_cad.shape_state import ShapeState
 from sesame_cad.specification import Specification
 from sesame_cad.state import CellState
@@ -70,12 +69,12 @@ class SolvedMesh:
 
 def solved_mesh(spec: Specification, state: ShapeState) -> SolvedMesh:
     """Read a state on its mesh; a smooth shape on one fine enough for pictures."""
-    if isinstance(state, CoupledState):
+    if isinstance(state, CellState):
+        read = (*_cell(state), state.equilibrium.scene, False)
+    else:
         found = state.found
         positions = upright(found.mesh, found.positions)
         read = (found.mesh, positions, fabric_of(found.scene), found.tension_field)
-    else:
-        read = (*_cell(state), state.equilibrium.scene, False)
     mesh, positions, scene, tension_field = read
     fields = _fields(mesh, positions, scene, tension_field=tension_field)
     radius = state.radius_mm

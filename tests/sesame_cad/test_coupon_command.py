@@ -33,13 +33,50 @@ def test_a_coupon_is_a_folder_that_can_be_sewn(run_command, tmp_path):
     widths = [c["width_mm"] for c in data["cells"] if c["row"] == "width"]
     assert widths == pytest.approx([1.25, 1.35, 1.45, 1.65, 1.85, 2.05])
     code, out, _ = run_command(["check", str(target)])
-    assert (code, out) == (
-        1,
-        "design.json: of a coupon, which is not verified; make it again to compare\n",
-    )
+    assert (code, out) == (0, f"{target}: every file is as it should be\n")
     again = run_command(["coupon", *options, "-o", str(target)])
     assert again[0] == 0
     assert json.loads((target / "design.json").read_text()) == data
+
+
+def spoil_number(folder):
+    file = folder / "design.json"
+    file.write_text(file.read_text().replace('"cells": [', '"cells": [{}, '))
+
+
+def spoil_listing(folder):
+    (folder / "more.txt").write_text("more")
+
+
+def spoil_specification(folder):
+    file = folder / "design.json"
+    file.write_text(file.read_text().replace('"specification":', '"was":'))
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda folder: (folder / "pictures" / "coupon.png").unlink(), "coupon.png: missing"),
+        (spoil_number, "design.json: cells"),
+        (spoil_listing, "more.txt: not listed in design.json"),
+        (spoil_specification, 'no "specification" in it'),
+        (
+            lambda folder: (folder / "stitch" / "coupon.dst").write_bytes(b"LA:"),
+            "stitch/coupon.dst: 3 bytes are no DST file",
+        ),
+        (
+            lambda folder: (folder / "stitch" / "coupon.blocks.csv").write_text("a,b"),
+            "not the list of the plan's blocks",
+        ),
+    ],
+)
+def test_a_spoilt_coupon_is_found(run_command, tmp_path, spoil, said):
+    target = tmp_path / "it"
+    assert run_command(["coupon", "--wire-diameter", "0.3mm", "-o", str(target)])[0] == 0
+    spoil(target)
+    code, out, _ = run_command(["check", str(target)])
+    assert code == 1
+    assert said in out
 
 
 @pytest.mark.parametrize(

@@ -10,12 +10,15 @@ import pystitch
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pyembroidery import DstWriter
 from pystitch import DstReader
 
 from patterns.records import Command, Records
 from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.dst import clean_label, decode_dst, write_dst
+from sesame_cad.files.dst_records import record_bytes
 from sesame_cad.files.dst_switches import DstSwitches
+from sesame_cad.files.embroidery import embroidery_pattern
 
 QUICK = settings(deadline=None, max_examples=60)
 MOVES = st.tuples(
@@ -255,3 +258,15 @@ def test_a_stop_alone_is_none_of_two():
         decode_dst(write_dst(records_of(moves), "x"), DEMANDING)
     with pytest.raises(DesignFileError, match="stands alone"):
         decode_dst(write_dst(records_of(moves * 2), "x"), DEMANDING)
+
+
+def test_records_are_encoded_as_the_library_does() -> None:
+    rng = np.random.default_rng(0)
+    step = rng.integers(-121, 122, (2000, 2))
+    command = rng.choice(["stitch", "jump", "stop"], len(step), p=[0.6, 0.3, 0.1])
+    command[-1] = "end"
+    step[np.isin(command, ["stop", "end"])] = 0
+    records = Records(command, np.cumsum(step, axis=0))
+    whole = io.BytesIO()
+    DstWriter.write(embroidery_pattern(records), whole)
+    assert record_bytes(records) == whole.getvalue()[512:]
