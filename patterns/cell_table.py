@@ -39,7 +39,6 @@ class CellTable:
         order = np.lexsort((entry, number))
         number, entry = number[order], entry[order]
         new = (np.diff(number, prepend=-1) != 0) | (np.diff(entry, prepend=-1) != 0)
-        new[:1] = True
         self._number, self._thing = number[new], entry[new]
 
     def near(self, points_mm: Vectors) -> tuple[Indices, Indices]:

@@ -1,4 +1,4 @@
-"""The whole plan: marks, then the stages of the wire with covers in between, then stripes."""
+"""The whole plan: marks, stages of the wire with covers in between, then stripes and ties."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from patterns.circuit import Circuit, CrossingKind, Diameters
+from patterns.contact_ties import contact_ties
 from patterns.couching import FREE_TAIL_MM, needle_clearance_mm
 from patterns.cover import covers
 from patterns.errors import NoRoomError, PatternError
@@ -65,6 +66,7 @@ def stitch_plan(
         blocks.append(Block(BlockKind.WIRE, say.wire(stage), (run,), stage))
     thickest = laid[-1].like(max(diameters))
     blocks.extend(_stripe_blocks(circuit, thickest, max(clear), machine, stitching))
+    blocks.extend(_tie_blocks(circuit, thickest, max(clear), machine, stitching))
     for block in blocks:
         if block.kind is BlockKind.MARKS or (block.kind.is_wire and machine.couching != "zigzag"):
             continue
@@ -159,6 +161,17 @@ def _stripe_blocks(
     return (Block(BlockKind.STRIPES, with_thread(machine, STRIPES_TEXT), runs),)
 
 
+def _tie_blocks(
+    circuit: Circuit, laid: LaidWire, clear_mm: float, machine: Machine, stitching: Stitching
+) -> tuple[Block, ...]:
+    if stitching.ties == "none":
+        return ()
+    block = contact_ties(
+        circuit.layout, laid, clear_mm=clear_mm, machine=machine, stitching=stitching
+    )
+    return () if block is None else (block,)
+
+
 def _check_settings(
     circuit: Circuit, stitching: Stitching, machine: Machine, clear_mm: list[float]
 ) -> None:
@@ -196,7 +209,7 @@ def _mark_blocks(
 
 def _last_below(block: Block, circuit: Circuit) -> int:
     """Give the last stage that lies there when a block is sewn; its own, if it lays one."""
-    if block.kind is BlockKind.STRIPES:
+    if block.kind in (BlockKind.STRIPES, BlockKind.TIES):
         return len(circuit.stages) - 1
     return block.stage - (block.kind is BlockKind.COVER)
 

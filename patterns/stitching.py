@@ -14,6 +14,9 @@ Underlay = Literal["none", "edge"]
 Stripes = Literal["none", "rows", "columns"]
 """Lines of thread across the loops that do not stretch: none, along rows, or along columns."""
 
+Ties = Literal["none", "contacts"]
+"""Thread that holds loops to one another: none, or a tie in each point in which two touch."""
+
 
 @dataclass(frozen=True, slots=True)
 class Stitching:
@@ -46,6 +49,8 @@ class Stitching:
         Longest stitch of a stripe, but for those that step over wire.
     stripe_passes : int
         How often a stripe is sewn over: 1, or 2 for there and back.
+    ties : {"none", "contacts"}
+        Thread over both wires where loops touch, sewn after the stripes.
     lock_length_mm : float
         Length of the small stitches back and forth that lock a thread.
     tail_length_mm : float
@@ -72,6 +77,7 @@ class Stitching:
     stripes: Stripes = "none"
     stripe_stitch_mm: float = 2.5
     stripe_passes: int = 1
+    ties: Ties = "none"
 
     @property
     def largest_cover_gap_mm(self) -> float:

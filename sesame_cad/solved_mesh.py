@@ -69,12 +69,12 @@ class SolvedMesh:
 
 def solved_mesh(spec: Specification, state: ShapeState) -> SolvedMesh:
     """Read a state on its mesh; a smooth shape on one fine enough for pictures."""
-    if not isinstance(state, CellState):
+    if isinstance(state, CellState):
+        read = (*_cell(state), state.equilibrium.scene, False)
+    else:
         found = state.found
         positions = upright(found.mesh, found.positions)
         read = (found.mesh, positions, fabric_of(found.scene), found.tension_field)
-    else:
-        read = (*_cell(state), state.equilibrium.scene, False)
     mesh, positions, scene, tension_field = read
     fields = _fields(mesh, positions, scene, tension_field=tension_field)
     radius = state.radius_mm

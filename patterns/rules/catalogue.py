@@ -30,10 +30,10 @@ class RuleNote:
 CATALOGUE = (
     RuleNote(
         "blocks",
-        "marks, stages of the wire, covers and stripes are sewn once each and in order, a stop "
-        "between two of them",
+        "marks, stages of the wire, covers, stripes and ties are sewn once each and in order, a "
+        "stop between two of them",
         "the circuit's own order",
-        ("stitching.stripes",),
+        ("stitching.stripes", "stitching.ties"),
     ),
     RuleNote(
         "runs",
@@ -97,6 +97,13 @@ CATALOGUE = (
         "half the wire, half the needle and what the cover's margin exceeds the needle's by, on "
         "either side",
         ("stitching.cover_margin_mm", "stitching.needle_margin_mm"),
+    ),
+    RuleNote(
+        "contact-ties",
+        "where ties are asked for, every contact has one, across it from inside one loop to inside "
+        "the other",
+        "0.14 mm from the contact, twice what rounding moves a needle point",
+        ("stitching.ties",),
     ),
     RuleNote(
         "stitch-length",

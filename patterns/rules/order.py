@@ -12,11 +12,12 @@ _Part = tuple[BlockKind, int]
 
 
 def check_blocks(subject: Subject) -> list[Violation]:
-    """Check for marks (if any), the stages with a cover before each but the first, then stripes.
+    """Check for marks (if any), stages with a cover before each but the first, stripes and ties.
 
     Each must be there once, in order, and nothing else; stripes only when they are asked for. The
-    cover before a further wire may be left out, for that wire need not touch another. Ties to
-    another layer, if any, come last; `patterns.rules.ties` says where they must be.
+    cover before a further wire may be left out, for that wire need not touch another. Ties come
+    last: those of loops that touch must be there if they are asked for, and those to another layer
+    may be; `patterns.rules.contact_ties` and `patterns.rules.ties` say where they must be.
     """
     circuit = subject.circuit
     parts = [(block.kind, block.stage) for block in subject.plan.blocks]
@@ -24,7 +25,7 @@ def check_blocks(subject: Subject) -> list[Violation]:
     faults = [
         Violation(_RULE, f"{_name(circuit, part)} is missing: no block {part[0].value}", 0.0, 0.0)
         for part in order[1:]
-        if part not in parts and not _may_lack(circuit, part)
+        if part not in parts and not _may_lack(subject, part)
     ]
     latest, latest_at = -1, 0
     for i, part in enumerate(parts):
@@ -44,9 +45,12 @@ def check_blocks(subject: Subject) -> list[Violation]:
     return faults
 
 
-def _may_lack(circuit: Circuit, part: _Part) -> bool:
+def _may_lack(subject: Subject, part: _Part) -> bool:
     kind, stage = part
-    return kind is BlockKind.TIES or (kind is BlockKind.COVER and circuit.begins_wire(stage))
+    circuit = subject.circuit
+    if kind is BlockKind.TIES:
+        return subject.stitching.ties == "none" or not circuit.layout.contacts
+    return kind is BlockKind.COVER and circuit.begins_wire(stage)
 
 
 def _order(stages: int, *, striped: bool) -> list[_Part]:

@@ -7,6 +7,7 @@ from patterns.machine import Machine
 from patterns.plan import StitchPlan
 from patterns.rules.bend import check_bend_radius, check_smooth_path
 from patterns.rules.clearance import check_needle_on_wire
+from patterns.rules.contact_ties import check_contact_ties
 from patterns.rules.couching_angle import check_couching_angle
 from patterns.rules.cover_width import check_cover_width
 from patterns.rules.feed import check_feed_and_cut
@@ -31,6 +32,7 @@ RULES = (
     check_feed_and_cut,
     check_insulation,
     check_cover_width,
+    check_contact_ties,
     check_stitch_length,
     check_locks,
     check_hoop,

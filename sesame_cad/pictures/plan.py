@@ -29,6 +29,9 @@ _PIXEL_SHARE = 1 / 2700
 _MOST_NUMBERS = 400
 """The numbers of more loops than this cannot be read."""
 
+_GROUND = {"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8}
+"""Below words and numbers, that lines do not strike through."""
+
 _ARROW_SHARE, _LARGEST_ARROW = 0.02, 0.25
 """Length of arrow heads as a share of the width, but at most this share of the smallest loop."""
 
@@ -54,7 +57,7 @@ def plan_figure(
     _draw_needles(axes, plan, seen_mm)
     _draw_thread(axes, plan, BlockKind.COVER, COVER, "thread cover")
     _draw_thread(axes, plan, BlockKind.STRIPES, STRIPE, "stripe")
-    _draw_thread(axes, plan, BlockKind.TIES, TIE, "tie to the other layer")
+    _draw_thread(axes, plan, BlockKind.TIES, TIE, "tie")
     arrow_mm = _arrow_mm(circuit, outline)
     for k, stage in enumerate(circuit.stages):
         points = stage.polyline(max(0.02, seen_mm / 2))
@@ -139,44 +142,48 @@ def _draw_numbers(axes: Axes, circuit: Circuit) -> None:
     size = float(np.clip(60 / np.sqrt(len(loops)), 4, 14))
     for number, k in enumerate(loops_in_order(circuit), start=1):
         place = (loops[k].x_mm, loops[k].y_mm)
-        axes.annotate(str(number), place, ha="center", va="center", fontsize=size, color="#333333")
+        axes.annotate(
+            str(number),
+            place,
+            ha="center",
+            va="center",
+            fontsize=size,
+            color="#333333",
+            zorder=4.5,  # on stripes, below wire
+            bbox=_GROUND,
+        )
 
 
 def _draw_ends(axes: Axes, circuit: Circuit) -> None:
-    begins = [circuit.begins_wire(k) for k in range(len(circuit.stages))]
-    ends = [
-        (
-            path,
-            0.0,
-            "start" if begins[k] else circuit.own_name(k),
-            stage_colour(k) if begins[k] else CUT,
-        )
-        for k, path in enumerate(circuit.stages)
-    ] + [
-        (path, path.length_mm, "end", stage_colour(k))
-        for k, path in enumerate(circuit.stages)
-        if circuit.ends_wire(k)
-    ]
-    for path, place_mm, text, colour in ends:
-        point, along = path.at(place_mm)
-        axes.plot(*point[0], "o", color=colour, markersize=5, zorder=7)
-        axes.annotate(
-            text,
-            (float(point[0, 0]), float(point[0, 1])),
-            xytext=_beside(along[0]),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            color=colour,
-            fontsize=9,
-            zorder=8,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
-        )
+    """Name the free ends, beyond the wire, and the places where a stage follows on another."""
+    for k, path in enumerate(circuit.stages):
+        begins = circuit.begins_wire(k)
+        (begin, end), (out_of, onward) = path.at([0.0, path.length_mm])
+        if begins:
+            _name_place(axes, begin, "start", stage_colour(k), -out_of)
+        else:
+            aside = np.array([out_of[1], -out_of[0]])
+            _name_place(axes, begin, circuit.own_name(k), CUT, aside)
+        if circuit.ends_wire(k):
+            _name_place(axes, end, "end", stage_colour(k), onward)
 
 
-def _beside(along: Vectors) -> tuple[float, float]:
-    """Offset of a label, in points: to the right of the wire."""
-    return float(24 * along[1]), float(-14 * along[0])
+def _name_place(axes: Axes, place: Vectors, text: str, colour: str, way: Vectors) -> None:
+    """Set a dot, and a word off it in a direction."""
+    x, y = place.tolist()
+    axes.plot(x, y, "o", color=colour, markersize=5, zorder=7)
+    axes.annotate(
+        text,
+        (x, y),
+        xytext=(24 * float(way[0]), 14 * float(way[1])),
+        textcoords="offset points",
+        ha="center",
+        va="center",
+        color=colour,
+        fontsize=9,
+        zorder=8,
+        bbox=_GROUND,
+    )
 
 
 def _finish(axes: Axes) -> None:

@@ -149,7 +149,8 @@ class MachineSection(Section):
         min_length=4,
         max_length=4,
         description=(
-            "the threads' colours (words) for marks, couching, covers and stripes, in this order"
+            "the threads' colours (words) for marks, couching, covers, and stripes and ties, in "
+            "this order"
         ),
     )
 

@@ -31,6 +31,7 @@ _ALLOWED: Mapping[tuple[str, str], tuple[object, ...]] = MappingProxyType(
         ("layout", "missing"): ((),),
         ("wiring", "split"): ("none",),
         ("stitching", "stripes"): ("none", "columns"),
+        ("stitching", "ties"): ("none",),
     }
 )
 """Values that keys of other sections may have in sleeves."""

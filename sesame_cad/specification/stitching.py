@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from patterns.stitching import Stitching, Stripes, Underlay
+from patterns.stitching import Stitching, Stripes, Ties, Underlay
 from sesame_cad.specification.section import Section
 
 _DEFAULT = Stitching()
@@ -92,6 +92,13 @@ class StitchingSection(Section):
         ge=1,
         le=2,
         description="how often these lines are sewn over (a count): once, or there and back",
+    )
+    ties: Ties = Field(
+        default=_DEFAULT.ties,
+        description=(
+            "ties of thread that does not stretch, sewn over both wires where loops touch, so that "
+            "they stay tangent (a word); sleeves have ties of their own"
+        ),
     )
     lock_length_mm: float = Field(
         default=_DEFAULT.lock_length_mm,

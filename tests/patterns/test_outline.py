@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely import Polygon
+from shapely import Polygon, box
 from shapely.geometry.polygon import orient
 
 from patterns.circuit import Circuit
 from patterns.edge_clearance import edge_clearance_mm
 from patterns.errors import PatternError
 from patterns.machine import Machine
-from patterns.outline import Outline, cut_outline
+from patterns.outline import Outline, _shrunk, cut_outline
 from patterns.path import Line, WirePath
 from patterns.plan import Block, BlockKind, Run, StitchPlan
 from patterns.rules import check_outline
@@ -208,3 +208,35 @@ def test_a_stitch_on_fabric_but_near_a_cut_is_found() -> None:
     depth = top[1] - needles[:, 1] / 10
     assert [fault.stitch for fault in faults] == np.flatnonzero(depth < 0.3).tolist()
     assert all("too near" in fault.message for fault in faults)
+
+
+C_SHAPE = [(10, 10), (20, 10), (20, 12), (12, 12), (12, 18), (20, 18), (20, 20), (10, 20)]
+ROUND_A_BLOCK = [
+    *[(10, 14.75), (10, 5), (40, 5), (40, 25), (10, 25), (10, 15.25)],
+    *[(14, 15.25), (14, 21), (36, 21), (36, 9), (14, 9), (14, 14.75)],
+]
+SQUARE = [(30, 12), (36, 12), (36, 18), (30, 18)]
+
+
+@pytest.mark.parametrize(
+    "openings",
+    [
+        [],
+        [SQUARE],
+        [SQUARE, C_SHAPE],
+        [ROUND_A_BLOCK],  # whose neck goes
+        [SQUARE, [(x - 7.5, y) for x, y in SQUARE]],  # run into one another
+        [SQUARE, [(x, y - 11.5) for x, y in SQUARE]],  # runs into the outside
+        [[*C_SHAPE[:2], (20, 14.5), (12, 14.5), (12, 15.5), (20, 15.5), *C_SHAPE[6:]]],
+    ],
+)
+@pytest.mark.parametrize("by_mm", [0.4, 1.0, 3.2])
+def test_fabric_that_is_shrunk_opening_by_opening_is_that_which_is_shrunk_at_once(
+    openings: list[list[tuple[float, float]]], by_mm: float
+) -> None:
+    fabric = Polygon(box(0, 0, 50, 30).exterior, openings)
+    at_once = fabric.buffer(-by_mm, quad_segs=256)
+    assert _shrunk(fabric, by_mm).symmetric_difference(at_once).area < 2e-3 * by_mm * fabric.length
+    assert len(getattr(_shrunk(fabric, by_mm), "interiors", ())) == len(
+        getattr(at_once, "interiors", ())
+    )

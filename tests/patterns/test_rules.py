@@ -172,7 +172,7 @@ def test_the_points_of_the_other_half_are_found(bench) -> None:
 
 def test_every_rule_takes_an_empty_plan(bench) -> None:
     circuit, _ = bench.good()
-    assert len(RULES) == 14
+    assert len(RULES) == 15
     assert "blocks" in bench.broken(circuit, StitchPlan(()))
     bare = tuple(Block(kind, "", (), stage) for kind, stage in bench.parts)
     assert {"runs", "insulation"} <= bench.broken(circuit, StitchPlan(bare))

@@ -41,7 +41,51 @@ def test_crossings_and_distances_are_those_of_the_lines() -> None:
     assert found == {
         (i, k) for i, one in enumerate(stitches) for k, own in enumerate(lines) if one.crosses(own)
     }
-    distance = PIECES.distance_mm(ends[0], 2.0)
-    for place, away in zip(ends[0], distance, strict=True):
-        nearest = min(Point(place).distance(own) for own in lines)
-        assert np.isclose(away, nearest) if nearest <= 2.0 else away == np.inf
+    for reach_mm, scale in ((2.0, 1.0), (12.0, 6.0)):
+        distance = PIECES.distance_mm(scale * ends[0], reach_mm)
+        for place, away in zip(scale * ends[0], distance, strict=True):
+            nearest = min(Point(place).distance(own) for own in lines)
+            assert np.isclose(away, nearest) if nearest <= reach_mm else away == np.inf
+
+
+def test_each_pair_is_there_once_and_no_stretch_with_itself_or_the_next() -> None:
+    later, earlier = PIECES.near_one_another(0.4)
+    assert np.all(later > earlier)
+    assert len(set(zip(later.tolist(), earlier.tolist(), strict=True))) == len(later)
+    stretch = np.floor(PIECES.middle_mm / (APART_MM / 2))
+    same = PIECES.row[later] == PIECES.row[earlier]
+    assert np.any(same)
+    assert np.all(np.abs(stretch[later] - stretch[earlier])[same] > 1)
+
+
+def test_lengths_count_from_the_start_of_each_row() -> None:
+    for k, row in enumerate(ROWS):
+        own = PIECES.begin_mm[PIECES.row == k]
+        expected = [0.0, *np.cumsum(np.hypot(*np.diff(row, axis=0).T))]
+        assert np.allclose([*own, own[-1] + PIECES.size_mm[PIECES.row == k][-1]], expected)
+
+
+def test_rows_of_one_piece_come_near_one_another() -> None:
+    rows = [np.array([[0.0, y], [0.5, y]]) for y in (0.0, 0.1, 9.0)]
+    later, earlier = SewnPieces(rows).near_one_another(0.2)
+    assert (later.tolist(), earlier.tolist()) == ([1], [0])
+
+
+def test_long_pieces_are_crossed_and_far_ones_found() -> None:
+    rows = [np.array([[-30.0, 0.1 * y], [40.0, 3.0 * y]]) for y in range(-6, 7)]
+    pieces, lines = SewnPieces(rows), [LineString(row) for row in rows]
+    begin, end = RNG.uniform(-30, 30, (2, 200, 2))
+    stitch, piece, share = pieces.crossed(begin, end)
+    assert set(zip(stitch.tolist(), piece.tolist(), strict=True)) == {
+        (i, k)
+        for i, pair in enumerate(zip(begin, end, strict=True))
+        for k, own in enumerate(lines)
+        if own.crosses(LineString(pair))
+    }
+    for i, k, at in zip(stitch, piece, share, strict=True):
+        place = lines[k].intersection(LineString([begin[i], end[i]]))
+        assert place.distance(lines[k].interpolate(at, normalized=True)) < 1e-9
+    for reach_mm in (0.5, 5.0, 20.0):
+        away = np.array([min(Point(one).distance(own) for own in lines) for one in begin])
+        away[away > reach_mm] = np.inf
+        assert np.allclose(pieces.distance_mm(begin, reach_mm), away)

@@ -1,6 +1,7 @@
 import hashlib
 import json
 
+import numpy as np
 import pytest
 
 from sesame_cad.files.dst import decode_dst
@@ -53,10 +54,31 @@ def spoil_specification(folder):
     file.write_text(file.read_text().replace('"specification":', '"was":'))
 
 
+def spoil_stitch(folder):
+    """Move a stitch, in a file that is listed as it is."""
+    file, listing = folder / "stitch" / "coupon.dst", folder / "design.json"
+    content = bytearray(file.read_bytes())
+    data = json.loads(listing.read_text())
+    listed = data["files"]["stitch/coupon.dst"]
+    records = decode_dst(bytes(content)).records
+    step = np.diff(records.xy[:, 0], prepend=0)
+    first = int(np.argmax((step == 0) & (records.command == "stitch")))
+    content[512 + 3 * first] ^= 0x01  # one unit to the right,
+    content[512 + 3 * (first + 1)] ^= 0x02  # and back
+    file.write_bytes(content)
+    listed["sha256"] = hashlib.sha256(content).hexdigest()
+    listing.write_text(json.dumps(data))
+
+
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
         (lambda folder: (folder / "pictures" / "coupon.png").unlink(), "coupon.png: missing"),
+        (
+            lambda folder: (folder / "pictures" / "coupon.png").write_bytes(b"none"),
+            "coupon.png: changed since it was written",
+        ),
+        (spoil_stitch, "stitch/coupon.dst: record"),
         (spoil_number, "design.json: cells"),
         (spoil_listing, "more.txt: not listed in design.json"),
         (spoil_specification, 'no "specification" in it'),

@@ -16,7 +16,7 @@ from pystitch import DstReader
 from patterns.records import Command, Records
 from sesame_cad.errors import DesignFileError, InputError
 from sesame_cad.files.dst import clean_label, decode_dst, write_dst
-from sesame_cad.files.dst_records import record_bytes
+from sesame_cad.files.dst_records import read_records, record_bytes
 from sesame_cad.files.dst_switches import DstSwitches
 from sesame_cad.files.embroidery import embroidery_pattern
 
@@ -270,3 +270,9 @@ def test_records_are_encoded_as_the_library_does() -> None:
     whole = io.BytesIO()
     DstWriter.write(embroidery_pattern(records), whole)
     assert record_bytes(records) == whole.getvalue()[512:]
+
+
+@pytest.mark.parametrize("body", [b"\x01\x00\xc3\x00\x00\xf3", b"\x00\x00\x03\x01\x00\xf3"])
+def test_a_stop_or_an_end_that_moves_is_refused(body):
+    with pytest.raises(DesignFileError, match="stops and moves"):
+        read_records(body)

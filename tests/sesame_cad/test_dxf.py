@@ -13,6 +13,7 @@ from patterns.outline import Outline
 from patterns.registration import Mark
 from sesame_cad.errors import DesignFileError
 from sesame_cad.files.dxf import outline_dxf, read_outline_dxf
+from sesame_cad.files.dxf_vertices import all_vertices
 
 SQUARE = np.array([(-60.0, -50.0), (60.0, -50.0), (60.0, 40.0), (-60.0, 40.1234)])
 HOLE = np.array([(10.0, 10.0), (10.0, 20.0), (20.0005, 10.0)])
@@ -137,3 +138,20 @@ def test_damage_is_refused_or_harmless(data):
     place = data.draw(st.integers(0, len(lines) - 1))
     with suppress(DesignFileError):
         read_outline_dxf("\n".join(lines[:place] + lines[place + 1 :]).encode())
+
+
+def test_every_polyline_says_how_many_vertices_it_has():
+    text = outline_dxf(OUTLINE, MARKS)
+    lines = [one.split("\n  0\n")[0] for one in text.split("AcDbPolyline\n 90\n")[1:]]
+    assert [int(one.split("\n")[0]) for one in lines] == [3, 3, 4, 2, 2, 2]
+    assert [one.count("\n 10\n") for one in lines] == [3, 3, 4, 2, 2, 2]
+
+
+def test_a_vertex_that_claims_to_stand_for_others_is_none():
+    text, where = outline_dxf(OUTLINE, MARKS), "\n 20\n40.0\n"
+    assert where in text
+    with pytest.raises(DesignFileError):
+        read_outline_dxf(text.replace(where, "\n 20\n-7.25e+307\n").encode())
+    read, _ = read_outline_dxf(text.replace(where, "\n 20\n-7.25e307\n").encode())
+    assert read.outside[:, 1].tolist() == [-50.0, -50.0, -7.25e307, 40.1234]
+    assert all_vertices([], []).shape == (0, 2)

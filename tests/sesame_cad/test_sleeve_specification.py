@@ -74,6 +74,7 @@ def test_it_is_written_and_read_back():
         ("layout.terminals", "top", 'layout.terminals = "top"', '"left" or "right"'),
         ("layout.shape", "cell", 'layout.shape = "cell"', 'must be "auto" or "none"'),
         ("stitching.stripes", "rows", 'stitching.stripes = "rows"', 'must be "none" or "columns"'),
+        ("stitching.ties", "contacts", 'stitching.ties = "contacts"', 'must be "none"'),
         ("wiring.split", "auto", 'wiring.split = "auto"', 'must be "none"'),
         ("layout.kind", "grid", "beam", "given: "),
     ],

@@ -119,7 +119,7 @@ def test_defaults_are_those_of_table_1_and_of_the_geometry():
 
 
 def test_conversions_carry_every_value():
-    words = {"cover_underlay": "edge", "stripes": "rows", "stripe_passes": 2}
+    words = {"cover_underlay": "edge", "stripes": "rows", "stripe_passes": 2, "ties": "contacts"}
     plain = {"cover_overlap_mm": 0.2} | {
         key: value * 1.1
         for key, value in asdict(Stitching()).items()
