@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
+from math import ceil
 
 from patterns.records import Records, plan_records
 from sesame_cad.pipeline import Design, Pattern, refusing
 from sesame_cad.sleeve.hold import Hold, hold
+from sesame_cad.sleeve.hoops import UpperHoop, upper_hoop
 from sesame_cad.sleeve.pattern import LOWER, UPPER, SleevePattern, sleeve_pattern
 from sesame_cad.sleeve_prediction.segment import predict_sleeve
 from sesame_cad.specification import Specification
@@ -23,7 +25,7 @@ _NOTES: Mapping[str, str] = {
     ),
     UPPER: (
         "Sew this array first, and leave it in its hoop: it is laid on the lower array, right side "
-        "up, before the ties of that one are sewn. Its hoop must lie within the lower one."
+        "up, before the ties of that one are sewn."
     ),
 }
 
@@ -36,6 +38,8 @@ class SleeveDesign:
     ----------
     spec : Specification
     pattern : SleevePattern
+    hoop : UpperHoop
+        The hoop of the upper array.
     prediction : SegmentPrediction or None
         None when none is asked for (`layout.shape = "none"`).
     hold : Hold or None
@@ -44,6 +48,7 @@ class SleeveDesign:
 
     spec: Specification
     pattern: SleevePattern
+    hoop: UpperHoop
     prediction: SegmentPrediction | None
     hold: Hold | None
 
@@ -51,7 +56,7 @@ class SleeveDesign:
     def hoopings(self) -> dict[str, Design]:
         """The layers by their names, each as the design of an array of its own."""
         return {
-            name: Design(_layer_spec(self.spec, name), layer, ())
+            name: Design(_layer_spec(self.spec, name, self.hoop), layer, ())
             for name, layer in self._layers().items()
         }
 
@@ -80,16 +85,27 @@ def sleeve_design(
     """
     progress("rows, ties and beams")
     pattern = refusing(spec, partial(sleeve_pattern, spec))
+    hoop = upper_hoop(spec, pattern.upper)
     if spec.layout.shape == "none":
-        return SleeveDesign(spec, pattern, None, None)
+        return SleeveDesign(spec, pattern, hoop, None, None)
     progress("sleeves and the beam that they bend")
     found = predict_sleeve(spec)
-    return SleeveDesign(spec, pattern, found, hold(spec, found))
+    return SleeveDesign(spec, pattern, hoop, found, hold(spec, found))
 
 
-def _layer_spec(spec: Specification, name: str) -> Specification:
+def _layer_spec(spec: Specification, name: str, hoop: UpperHoop) -> Specification:
     """Give the specification under the layer's name, with what its operator must know."""
-    own = spec.output.notes
-    notes = f"{_NOTES[name]}\n{own}" if own else _NOTES[name]
-    output = spec.output.model_copy(update={"notes": notes})
+    notes = [_NOTES[name], _hoop_note(spec, hoop)] if name == UPPER else [_NOTES[name]]
+    notes += [spec.output.notes] if spec.output.notes else []
+    output = spec.output.model_copy(update={"notes": "\n".join(notes)})
     return spec.model_copy(update={"name": f"{spec.name}-{name}", "output": output})
+
+
+def _hoop_note(spec: Specification, hoop: UpperHoop) -> str:
+    """Say which hoops will do for the upper array."""
+    inside, machine = hoop.inside_mm, spec.machine
+    return (
+        f"Take a hoop of at least {ceil(inside[0])} x {ceil(inside[1])} mm inside and less than "
+        f"{machine.hoop_width_mm:g} x {machine.hoop_height_mm:g} mm outside: it must lie inside "
+        "the lower hoop."
+    )

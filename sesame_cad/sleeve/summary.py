@@ -50,7 +50,8 @@ def _beam_rows(beams: Data) -> list[tuple[str, str]]:
         ),
         (
             "constraint strips",
-            f"{count} of {strip['length_mm']:g} × {strip['width_mm']:g} mm, "
+            f"{count} of {strip['length_mm']:g} × {strip['width_mm']:g} mm around a window of "
+            f"{strip['window_mm']:g} mm, "
             f"{strip['mass_g']:.2f} g each",
         ),
         (

@@ -17,6 +17,7 @@ from sesame_cad.package import write_package
 from sesame_cad.package_files import file_data
 from sesame_cad.sleeve.design import sleeve_design
 from sesame_cad.sleeve.hold import hold
+from sesame_cad.sleeve.hoops import upper_hoop
 from sesame_cad.specification import load_specification, specification_from
 from sesame_cad.verification import verified, verify
 
@@ -153,7 +154,11 @@ def test_the_numbers_of_beams_are_those_of_the_section(package):
     assert beams["count"] == strip["count"] == 2
     assert beams["hole_positions_mm"] == [6, 64]
     assert strip["hole_positions_mm"] == [6, 62]
-    area = 68 * 12 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4
+    assert strip["window_mm"] == pytest.approx(25 + 0.3 + 4 + 2)
+    # corners are as round outside as in the window, and cancel
+    width = strip["window_mm"] + 8
+    assert strip["width_mm"] == pytest.approx(width)
+    area = 68 * width - (68 - 24) * strip["window_mm"] - 2 * pi * 3**2 / 4
     assert strip["mass_g"] == pytest.approx(area * 0.38 * 1.2e-3)
     assert beams["mass_g"] > (70 * 14 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4) * 0.38 * 1.2e-3
     assert data["sleeve"] is data["bistable"] is beams["hold"] is None
@@ -226,6 +231,22 @@ def test_what_is_predicted_is_in_the_package_and_checked(tmp_path):
     faults = verify(tmp_path / "small")
     assert faults
     assert all(fault.startswith(f"{solids[0]}: ") and "predicted" in fault for fault in faults)
+
+
+def test_the_upper_hoop_lies_inside_the_lower_one(spec, made):
+    points = list(made.pattern.upper.outline.outsides)
+    points += [run.needles / UNITS_PER_MM for run in made.pattern.upper.plan.blocks[0].runs]
+    reach = 2 * np.abs(np.concatenate(points)).max(axis=0)  # marks lie around all else
+    assert made.hoop.inside_mm == pytest.approx(reach)
+    assert np.subtract(made.hoop.outside_mm, made.hoop.inside_mm) == pytest.approx([20, 20])
+    assert "hoop of at least" in made.hoopings["upper"].spec.output.notes
+    assert "hoop of at least" not in made.hoopings["lower"].spec.output.notes
+    wide = spec.sleeve.model_copy(update={"upper_hoop_rim_mm": 200.0})
+    with pytest.raises(InputError) as caught:
+        upper_hoop(spec.model_copy(update={"sleeve": wide}), made.pattern.upper)
+    width, height = caught.value.faults
+    assert "machine.hoop_width_mm = 406: must be at least" in width
+    assert "machine.hoop_height_mm = 330: must be at least" in height
 
 
 def couples(cold_mm, hot_mm):
