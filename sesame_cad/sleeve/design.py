@@ -12,6 +12,7 @@ from sesame_cad.pipeline import Design, Pattern, refusing
 from sesame_cad.sleeve.hold import Hold, hold
 from sesame_cad.sleeve.hoops import UpperHoop, upper_hoop
 from sesame_cad.sleeve.pattern import LOWER, UPPER, SleevePattern, sleeve_pattern
+from sesame_cad.sleeve_prediction.curves import ForceCurve, force_curves
 from sesame_cad.sleeve_prediction.segment import predict_sleeve
 from sesame_cad.specification import Specification
 from solver.sleeve.segment import SegmentPrediction
@@ -59,6 +60,11 @@ class SleeveDesign:
             name: Design(_layer_spec(self.spec, name, self.hoop), layer, ())
             for name, layer in self._layers().items()
         }
+
+    @cached_property
+    def force_curves(self) -> tuple[ForceCurve, ...]:
+        """Force of a sleeve against its pitch, cold and hot; none without a prediction."""
+        return () if self.prediction is None else force_curves(self.prediction)
 
     @cached_property
     def records(self) -> dict[str, Records]:
