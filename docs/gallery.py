@@ -2,8 +2,8 @@
 
     python docs/gallery.py [FOLDER]
 
-writes ``NAME-plan.png``, ``NAME-shapes.png`` and the like, beside the documentation's other pictures
-unless a folder is given.
+writes ``NAME-plan.png``, ``NAME-shapes.png`` and the like, beside the documentation's other
+pictures unless a folder is given.
 """
 
 from __future__ import annotations

@@ -21,8 +21,8 @@ _NOTES: Mapping[str, str] = {
     LOWER: (
         "Sew and prepare the upper array first; cut, rivet and crimp nothing before the ties are "
         "sewn. After release cut the beams from their frame, push each sleeve over the ramps until "
-        "it lies compressed between the hooks, bend the beam to the shorter strip and rivet both "
-        "ends."
+        "it lies compressed between the hooks. Bend the beam through the window of a constraint "
+        "strip, and rivet both ends to the strip's."
     ),
     UPPER: (
         "Sew this array first, and leave it in its hoop: it is laid on the lower array, right side "
@@ -100,18 +100,19 @@ def sleeve_design(
 
 
 def _layer_spec(spec: Specification, name: str, hoop: UpperHoop) -> Specification:
-    """Give the specification under the layer's name, with what its operator must know."""
-    notes = [_NOTES[name], _hoop_note(spec, hoop)] if name == UPPER else [_NOTES[name]]
+    """Give the specification under the layer's name, with its hoop and notes for its operator."""
+    notes = [_NOTES[name]]
+    machine = spec.machine
+    if name == UPPER:
+        width, height = map(ceil, hoop.inside_mm)
+        notes.append(
+            f"Take a hoop of at least {width} x {height} mm inside and less than "
+            f"{machine.hoop_width_mm:g} x {machine.hoop_height_mm:g} mm outside: it must lie "
+            "inside the lower hoop."
+        )
+        smallest = {"hoop_width_mm": float(width), "hoop_height_mm": float(height)}
+        machine = machine.model_copy(update=smallest)
     notes += [spec.output.notes] if spec.output.notes else []
     output = spec.output.model_copy(update={"notes": "\n".join(notes)})
-    return spec.model_copy(update={"name": f"{spec.name}-{name}", "output": output})
-
-
-def _hoop_note(spec: Specification, hoop: UpperHoop) -> str:
-    """Say which hoops will do for the upper array."""
-    inside, machine = hoop.inside_mm, spec.machine
-    return (
-        f"Take a hoop of at least {ceil(inside[0])} x {ceil(inside[1])} mm inside and less than "
-        f"{machine.hoop_width_mm:g} x {machine.hoop_height_mm:g} mm outside: it must lie inside "
-        "the lower hoop."
-    )
+    own = {"name": f"{spec.name}-{name}", "output": output, "machine": machine}
+    return spec.model_copy(update=own)
