@@ -58,7 +58,7 @@ def report_html(
         warnings=warnings_section(data),
         shape=shape_section(shape, Template(asset("viewer.html"))),
         rules=rules_section(stitches),
-        player=player(records, stitches, STITCH_DATA),
+        player=player(records, stitches),
         cut=cut_drawing(laid),
         circuit=circuit_drawing(laid, data["circuits"], diameters),
         circuits=circuits_table(data),

@@ -9,6 +9,7 @@ from typing import Any
 from patterns.records import Records
 from sesame_cad.report.assets import asset
 from sesame_cad.report.phase_diagram import phase_diagram
+from sesame_cad.report.stitch_view import STITCH_DATA, of_layer
 from sesame_cad.report.tables import accuracy_table, facts_table, omitted_table, shapes_table
 from sesame_cad.summary import warnings
 
@@ -52,10 +53,13 @@ def _way(view: Data) -> str:
     return _WAY[view["whole"]]
 
 
-def player(records: Records, stitches: Data, name: str) -> str:
-    """Give a stitch player whose data stands in the page under a name."""
+def player(records: Records, stitches: Data, layer: str = "") -> str:
+    """Give a stitch player, of one of several layers if there are such."""
     return Template(asset("player.html")).substitute(
-        stitches=name, records=len(records.command), blocks=_block_items(stitches["blocks"])
+        id=of_layer("player", layer),
+        stitches=of_layer(STITCH_DATA, layer),
+        records=len(records.command),
+        blocks=_block_items(stitches["blocks"]),
     )
 
 

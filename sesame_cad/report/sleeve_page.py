@@ -17,7 +17,7 @@ from sesame_cad.report.embedding import embedded
 from sesame_cad.report.file_links import file_links
 from sesame_cad.report.sections import player, rules_section, warnings_list
 from sesame_cad.report.sheet_drawing import sheet_drawing
-from sesame_cad.report.stitch_view import STITCH_DATA, stitch_view
+from sesame_cad.report.stitch_view import STITCH_DATA, of_layer, stitch_view
 from sesame_cad.report.tables import circuits_table, inputs_table, table
 from sesame_cad.sleeve.design import SleeveDesign
 from sesame_cad.sleeve.summary import sleeve_rows, sleeve_warnings
@@ -25,11 +25,6 @@ from sesame_cad.sleeve.summary import sleeve_rows, sleeve_warnings
 Data = dict[str, Any]
 
 _NO_STATES = '<p class="note">No states are predicted: layout.shape is "none".</p>'
-
-
-def stitch_data_name(layer: str) -> str:
-    """Name of a layer's stitches in the page."""
-    return f"{STITCH_DATA}-{layer}"
 
 
 def sleeve_report_html(
@@ -56,8 +51,7 @@ def sleeve_report_html(
         warnings=warnings_list(sleeve_warnings(data)),
         states="".join(_picture(*one) for one in pictures) or _NO_STATES,
         stitches="".join(
-            f"<h3>{name} array</h3>{rules_section(view)}"
-            + player(records[name], view, stitch_data_name(name))
+            f"<h3>{name} array</h3>{rules_section(view)}" + player(records[name], view, name)
             for name, view in views.items()
         ),
         sheets="".join(_sheets(design)),
@@ -66,7 +60,7 @@ def sleeve_report_html(
         numbers=table((), sleeve_rows(data)) + _left_out(data),
         inputs=inputs_table(data),
         files=file_links(["design.json", *data["files"]]),
-        data="\n".join(embedded(stitch_data_name(name), view) for name, view in views.items()),
+        data="\n".join(embedded(of_layer(STITCH_DATA, name), view) for name, view in views.items()),
         script=script(),
     )
 

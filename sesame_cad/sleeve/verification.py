@@ -32,7 +32,7 @@ from sesame_cad.package_checks import (
 from sesame_cad.pipeline import Design
 from sesame_cad.reading import Reading
 from sesame_cad.report.page import REPORT_FILE
-from sesame_cad.report.sleeve_page import stitch_data_name
+from sesame_cad.report.stitch_view import STITCH_DATA, of_layer
 from sesame_cad.report_checks import report_faults
 from sesame_cad.sleeve.cutting import Sheet
 from sesame_cad.sleeve.data import sleeve_design_data
@@ -128,7 +128,7 @@ def _report_faults(layer: str, reading: Reading) -> Faults:
     except DesignFileError:
         return  # which is told of that file
     if records is not None:
-        faults = report_faults(content, records, stitch_data_name(layer))
+        faults = report_faults(content, records, of_layer(STITCH_DATA, layer))
         yield from (f"{REPORT_FILE}: {layer} array: {fault}" for fault in faults)
 
 

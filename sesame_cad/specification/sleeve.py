@@ -75,8 +75,8 @@ class SleeveSection(Section):
         ge=1,
         le=1000,
         description=(
-            "how many neighbouring rows of an array share one wire, in series, and are heated "
-            "together; layout.rows must be a multiple of it"
+            "the number of neighbouring rows of an array that share one wire, in series, and are "
+            "heated together (a whole number); layout.rows must be a multiple of it"
         ),
     )
 
