@@ -76,7 +76,7 @@ class SleeveSection(Section):
         le=1000,
         description=(
             "the number of neighbouring rows of an array that share one wire, in series, and are "
-            "heated together (a whole number); layout.rows must be a multiple of it"
+            "heated together (a count); layout.rows must be a multiple of it"
         ),
     )
 
