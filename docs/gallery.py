@@ -1,9 +1,9 @@
-"""Draw the gallery: plan and shapes of every example, as `design` draws them.
+"""Draw the gallery: the pictures of every example, as `design` draws them.
 
     python docs/gallery.py [FOLDER]
 
-writes ``NAME-plan.png`` and ``NAME-shapes.png``, beside the documentation's other pictures unless a
-folder is given.
+writes ``NAME-plan.png``, ``NAME-shapes.png`` and the like, beside the documentation's other
+pictures unless a folder is given.
 """
 
 from __future__ import annotations

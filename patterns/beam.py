@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from patterns.contour import Contour
 from patterns.cut_piece import CutPiece
+from patterns.errors import PatternError
 from patterns.hooks import Barb, SleevePlace
 from patterns.positive import check_positive
 from patterns.rivets import RivetHoles
@@ -72,24 +74,36 @@ class Beam:
 class ConstraintStrip:
     """A strip riveted to both ends of a segment that is longer, so that the segment buckles.
 
+    It is riveted to one face of the beam, which in its other state arches to the other side: beam
+    and sleeves then pass through the strip's window, between two rails.
+
     Attributes
     ----------
     length_mm, width_mm : float
-        Of the strip.
+        Of the strip, with its rails.
     rivets : RivetHoles
         Two holes.
     corner_radius_mm : float
-        Of its four corners.
+        Of its four corners, and of the window's.
+    window_mm : float
+        Width of the window, which ends as far from the holes' centres as the strip does; 0 is a
+        strip without.
     """
 
     length_mm: float
     width_mm: float
     rivets: RivetHoles
     corner_radius_mm: float = 2.0
+    window_mm: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse what is no strip."""
         _check_strip(self)
+        if not 0 <= self.window_mm < self.width_mm:
+            raise PatternError(
+                f"no window of {self.window_mm:g} mm in a strip of {self.width_mm:g} mm: it must "
+                "be narrower"
+            )
 
     @property
     def hole_distance_mm(self) -> float:
@@ -104,10 +118,18 @@ class ConstraintStrip:
         PatternError
             When rounded corners have no room.
         """
-        x, y, radius = self.length_mm / 2, self.width_mm / 2, self.corner_radius_mm
-        upper = (Corner(-x, y, radius), Corner(x, y, radius))
-        outside = rounded((*below(upper), *reversed(upper)))
-        return CutPiece(name, outside, self.rivets.holes(self.length_mm))
+        outside = self._box(self.length_mm / 2, self.width_mm / 2)
+        beside_hole = (self.length_mm - self.hole_distance_mm) / 2
+        inner = self.hole_distance_mm / 2 - beside_hole, self.window_mm / 2
+        openings = (self._box(*inner).reversed(),) if self.window_mm else ()
+        return CutPiece(name, outside, self.rivets.holes(self.length_mm), openings)
+
+    def _box(self, x_mm: float, y_mm: float) -> Contour:
+        """Draw the round box of half a length and half a width."""
+        if x_mm <= 0:
+            raise PatternError("the strip's two ends leave no room for a window between them")
+        upper = tuple(Corner(x, y_mm, self.corner_radius_mm) for x in (-x_mm, x_mm))
+        return rounded((*below(upper), *reversed(upper)))
 
 
 def below(corners: tuple[Corner, ...]) -> tuple[Corner, ...]:

@@ -45,6 +45,13 @@ def check_constraint(
         for start, end in beam.rivets.segments_mm
         if strip.hole_distance_mm >= end - start - _ROUNDOFF_MM
     ]
+    widest = beam.width_mm + 2 * beam.hook_height_mm
+    if 0 < strip.window_mm <= widest + _ROUNDOFF_MM:
+        message = f"{name}: the beam with its hooks does not pass through its window"
+        actual, allowed = strip.window_mm, widest
+        faults.append(
+            Violation("constraint-window", message, 0.0, 0.0, actual=actual, allowed=allowed)
+        )
     return (*faults, *_check_own(strip, name, limits))
 
 

@@ -61,6 +61,8 @@ class Circuit:
         Every point in which stages come together: all contacts, and the terminals.
     tail_pieces : int
         How many pieces make up each tail.
+    links : tuple of WirePath
+        Where the wire lies beside the loops between its tails: from one row of loops to the next.
     """
 
     layout: Layout
@@ -68,6 +70,7 @@ class Circuit:
     stages: tuple[WirePath, ...]
     crossings: tuple[Crossing, ...]
     tail_pieces: int = 1
+    links: tuple[WirePath, ...] = ()
 
     @property
     def parts(self) -> tuple[Circuit, ...]:
@@ -165,8 +168,13 @@ class Circuit:
 
     @property
     def closed(self) -> bool:
-        """Whether the wire, its tails taken off, is one curve that ends where it starts."""
+        """Whether the wire, its tails taken off, is one curve that ends where it starts.
+
+        One with links ends on another row of loops, and need only be one curve.
+        """
         gaps, _ = self.wire.joints()
+        if self.links:
+            return float(gaps.max(initial=0.0)) < CLOSING_TOLERANCE_MM
         comes, goes = self.tails
         (leaves,), _ = comes.pieces[-1].at(np.array([comes.pieces[-1].length_mm]))
         (returns,), _ = goes.pieces[0].at(np.array([0.0]))

@@ -13,7 +13,8 @@ from patterns.path import Arc, Vectors
 def loops_in_order(circuit: Circuit) -> tuple[int, ...]:
     """Give the loops in the order in which the wire reaches them, stage by stage."""
     bent = [part for part in circuit.parts if part.tail_pieces > 1]
-    bends = {piece for part in bent for tail in part.tails for piece in tail.pieces}
+    paths = (path for part in bent for path in (*part.tails, *part.links))
+    bends = {piece for path in paths for piece in path.pieces}
     arcs = [one for one in circuit.wire.pieces if isinstance(one, Arc) and one not in bends]
     # from no bend of a loop does so short a way inward lead out of the loop again
     inward_mm = min(loop.smallest_radius_mm for loop in circuit.layout.loops)

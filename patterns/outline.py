@@ -157,7 +157,7 @@ def _fabric(circuit: Circuit, clearance_mm: float, corner_radius_mm: float) -> l
     grown = clearance_mm + corner_radius_mm
     parts = [
         *(Polygon(ring_around(loop, grown)) for loop in circuit.layout.loops),
-        *(_grown(piece, grown) for piece in _tail_pieces(circuit)),
+        *(_grown(piece, grown) for piece in _beside_loops(circuit)),
     ]
     fabric = get_parts(union_all(parts)).tolist()
     if corner_radius_mm > 0:
@@ -187,8 +187,10 @@ def _shrunk(fabric: Polygon, by_mm: float) -> BaseGeometry:
     return fabric.buffer(-by_mm, quad_segs=steps)
 
 
-def _tail_pieces(circuit: Circuit) -> list[Piece]:
-    return [piece for part in circuit.parts for tail in part.tails for piece in tail.pieces]
+def _beside_loops(circuit: Circuit) -> list[Piece]:
+    """Wire of tails, and of links between rows of loops."""
+    paths = (path for part in circuit.parts for path in (*part.tails, *part.links))
+    return [piece for path in paths for piece in path.pieces]
 
 
 def _grown(piece: Piece, clearance_mm: float) -> BaseGeometry:

@@ -111,7 +111,7 @@ def wires_from(
         _circuit(layout, group, place, tail_length_mm)
         for group, place in zip(groups, places, strict=True)
     )
-    return _joined(layout, groups, circuits)
+    return wiring_of(layout, groups, circuits)
 
 
 def _circuit(layout: Layout, group: Group, place: Exit, tail_length_mm: float) -> Circuit:
@@ -129,7 +129,8 @@ def _contacts_with_others(layout: Layout, group: Group) -> list[tuple[float, flo
     return [(c.x_mm, c.y_mm) for c in layout.contacts if (c.first in own) != (c.second in own)]
 
 
-def _joined(layout: Layout, groups: tuple[Group, ...], circuits: tuple[Circuit, ...]) -> Wiring:
+def wiring_of(layout: Layout, groups: tuple[Group, ...], circuits: tuple[Circuit, ...]) -> Wiring:
+    """Put circuits together, each over the loops of its group."""
     lengths = np.array([circuit.wire_length_mm for circuit in circuits])
     starts = (np.cumsum(lengths) - lengths).tolist()
     index = {(c.first, c.second): k for k, c in enumerate(layout.contacts)}

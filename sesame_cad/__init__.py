@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sesame_cad.designed import Designed, design
+    from sesame_cad.designed_sleeves import DesignedSleeves
     from sesame_cad.errors import InputError
     from solver.errors import NotConvergedError
 
-__all__ = ["Designed", "InputError", "NotConvergedError", "design"]
+__all__ = ["Designed", "DesignedSleeves", "InputError", "NotConvergedError", "design"]
 
 _HOMES = {
     "Designed": "sesame_cad.designed",
+    "DesignedSleeves": "sesame_cad.designed_sleeves",
     "design": "sesame_cad.designed",
     "InputError": "sesame_cad.errors",
     "NotConvergedError": "solver.errors",

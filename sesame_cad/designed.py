@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
 from pathlib import Path
 from typing import Any
 
 from patterns.records import plan_records
 from sesame_cad.design_data import design_data
+from sesame_cad.designed_sleeves import DesignedSleeves
+from sesame_cad.notebook import notebook_html
 from sesame_cad.package import pictures, write_design
 from sesame_cad.pipeline import Design, Pattern
 from sesame_cad.pipeline import design as made_from
 from sesame_cad.shape_state import ShapeState
+from sesame_cad.sleeve.design import sleeve_design
 from sesame_cad.specification import Specification, load_specification, specification_from
+from sesame_cad.specification.layout import SLEEVE
 
 Progress = Callable[[str], None]
 Data = dict[str, Any]
@@ -27,8 +29,8 @@ def design(
     overrides: Mapping[str, Any] | None = None,
     *,
     progress: Progress = lambda _: None,
-) -> Designed:
-    """Design an array.
+) -> Designed | DesignedSleeves:
+    """Design an array, or beams with sleeves (``layout.kind = "sleeve"``).
 
     Parameters
     ----------
@@ -52,6 +54,8 @@ def design(
         specification = specification_from(dict(spec), name, "specification", changed)
     else:
         specification = load_specification(Path(spec), changed)
+    if specification.layout.kind == SLEEVE:
+        return DesignedSleeves(sleeve_design(specification, progress))
     return Designed(made_from(specification, progress))
 
 
@@ -108,13 +112,7 @@ class Designed:
 
     def _repr_html_(self) -> str:
         """Show the numbers and a picture where notebooks display a value."""
-        cells = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in self._rows)
-        shown = "".join(
-            f'<img alt="{escape(path)}" style="max-width: 100%" '
-            f'src="data:image/png;base64,{b64encode(content).decode("ascii")}">'
-            for path, content in pictures(self.made)
-        )
-        return f"<h3>{escape(self.spec.name)}</h3><table>{cells}</table>{shown}"
+        return notebook_html(self.spec.name, self._rows, pictures(self.made))
 
     @property
     def _rows(self) -> list[tuple[str, str]]:

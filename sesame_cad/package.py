@@ -24,7 +24,8 @@ from sesame_cad.pipeline import Design, design
 from sesame_cad.report.page import REPORT_FILE, report_html
 from sesame_cad.shape_files import shape_files
 from sesame_cad.shape_state import ShapeState
-from sesame_cad.sleeve.package import sleeve_files
+from sesame_cad.sleeve.design import SleeveDesign, sleeve_design
+from sesame_cad.sleeve.package import fill_sleeves, sleeve_pictures
 from sesame_cad.specification import Specification
 from sesame_cad.specification.layout import SLEEVE
 from sesame_cad.staging import staged_directory
@@ -51,13 +52,15 @@ def write_package(spec: Specification, target: Path, progress: Progress) -> Data
     """
     with staged_directory(target) as folder:
         if spec.layout.kind == SLEEVE:
-            return write_files(folder, *sleeve_files(spec, progress))
+            return fill_sleeves(folder, sleeve_design(spec, progress), progress)
         return _fill(folder, design(spec, progress), progress)
 
 
-def write_design(made: Design, target: Path, progress: Progress) -> Data:
+def write_design(made: Design | SleeveDesign, target: Path, progress: Progress) -> Data:
     """Write the folder of a design that was made; see `write_package`."""
     with staged_directory(target) as folder:
+        if isinstance(made, SleeveDesign):
+            return fill_sleeves(folder, made, progress)
         return _fill(folder, made, progress)
 
 
@@ -89,8 +92,11 @@ def _files(made: Design, records: Records, progress: Progress) -> Files:
         yield from pictures(made, progress)
 
 
-def pictures(made: Design, progress: Progress = lambda _: None) -> Files:
-    """Draw the wire's path, and the shapes if there are any; by their paths in the folder."""
+def pictures(made: Design | SleeveDesign, progress: Progress = lambda _: None) -> Files:
+    """Draw the wire's path, and what is predicted if anything is; by their paths in the folder."""
+    if isinstance(made, SleeveDesign):
+        yield from sleeve_pictures(made, progress)
+        return
     laid = made.pattern
     progress("picture of the wire path")
     yield "pictures/plan.png", plan_picture(laid.circuit, laid.plan, laid.outline, laid.marks)

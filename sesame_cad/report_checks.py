@@ -13,10 +13,10 @@ from sesame_cad.report.embedding import read_embedded
 from sesame_cad.report.stitch_view import STITCH_DATA, viewed_records
 
 
-def report_faults(content: bytes, dst: Records) -> Iterator[str]:
-    """Compare the records in a page with those of the DST file."""
+def report_faults(content: bytes, dst: Records, name: str = STITCH_DATA) -> Iterator[str]:
+    """Compare the records that a page holds under a name with those of the DST file."""
     try:
-        shown = _shown(content)
+        shown = _shown(content, name)
     except (DesignFileError, UnicodeDecodeError) as error:
         yield str(error)
         return
@@ -27,8 +27,8 @@ def report_faults(content: bytes, dst: Records) -> Iterator[str]:
         yield "its stitches are not those of the DST file"
 
 
-def _shown(content: bytes) -> Records:
-    data: Any = read_embedded(content.decode("utf-8"), STITCH_DATA)
+def _shown(content: bytes, name: str) -> Records:
+    data: Any = read_embedded(content.decode("utf-8"), name)
     try:
         return viewed_records(data)
     except (KeyError, TypeError, ValueError, IndexError) as error:

@@ -241,6 +241,12 @@ CATALOGUE = (
         ("beam.constraint_length_mm",),
     ),
     RuleNote(
+        "constraint-window",
+        "a beam with its hooks passes through the window of its constraint strip",
+        "the beam's width with hooks",
+        ("layout.loop_diameter_mm", "beam.hook_height_mm"),
+    ),
+    RuleNote(
         "mat-size",
         "every piece fits on the sheet, turned or not",
         "the sheet between its margins",

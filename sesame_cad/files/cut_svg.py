@@ -65,10 +65,11 @@ def add_cut_line(group: ElementTree.Element, sheet: Sheet, line: CutLine) -> Non
         place = {"cx": number(centre[0]), "cy": number(centre[1]), "r": f"{diameter / 2:.4f}"}
         ElementTree.SubElement(group, f"{{{SVG}}}circle", place)
     else:
-        ElementTree.SubElement(group, f"{{{SVG}}}path", {"d": _path(sheet, line)})
+        ElementTree.SubElement(group, f"{{{SVG}}}path", {"d": cut_line_path(sheet, line)})
 
 
-def _path(sheet: Sheet, line: CutLine) -> str:
+def cut_line_path(sheet: Sheet, line: CutLine) -> str:
+    """Path data of a line, its arcs exact."""
     places = sheet.on_page(line.vertices[:, :2]).tolist()
     bulges = line.vertices[:, 2].tolist()
     parts = [f"M {_place(places[0])}"]

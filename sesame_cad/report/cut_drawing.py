@@ -47,7 +47,7 @@ def fabric_path(laid: Pattern, sheet: Sheet) -> str:
 
 
 def _parts(laid: Pattern, sheet: Sheet) -> Iterator[str]:
-    yield path(_grid(sheet), "mat")
+    yield path(mat_grid(sheet), "mat")
     yield path(fabric_path(laid, sheet), "fabric", fill_rule="evenodd")
     for kind, rings in (("cut", laid.outline.outsides), ("hole", laid.outline.openings)):
         yield path(" ".join(line_path(sheet, ring, closed=True) for ring in rings) or "M0,0", kind)
@@ -57,7 +57,7 @@ def _parts(laid: Pattern, sheet: Sheet) -> Iterator[str]:
     yield from _dimensions(laid, sheet)
 
 
-def _grid(sheet: Sheet) -> str:
+def mat_grid(sheet: Sheet) -> str:
     """Lines every centimetre of the page."""
     width, height = number(sheet.width_mm), number(sheet.height_mm)
     upright = (f"M{x},0V{height}" for x in range(0, int(sheet.width_mm) + 1, GRID_MM))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
-from importlib.resources import files
 from string import Template
 from typing import Any
 
@@ -13,13 +12,14 @@ from matplotlib import colormaps
 from patterns.records import Records
 from patterns.violation import Violation
 from sesame_cad.pipeline import Design
+from sesame_cad.report.assets import asset, script
 from sesame_cad.report.circuit_drawing import circuit_drawing
 from sesame_cad.report.cut_drawing import cut_drawing
 from sesame_cad.report.embedding import embedded
 from sesame_cad.report.file_links import file_links
 from sesame_cad.report.sections import (
-    block_items,
     numbers_section,
+    player,
     rules_section,
     shape_section,
     warnings_section,
@@ -31,20 +31,6 @@ from sesame_cad.report.tables import circuits_table, inputs_table
 Data = dict[str, Any]
 
 REPORT_FILE = "report.html"
-
-SCRIPTS = (
-    "packing",
-    "dragging",
-    "geometry",
-    "shapes",
-    "painter",
-    "viewer",
-    "records",
-    "sewing_canvas",
-    "player",
-    "page",
-)
-"""In the order in which they are read."""
 
 _COLOURS = 64
 
@@ -66,15 +52,13 @@ def report_html(
     laid = design.pattern
     shape, stitches = shape_view(design), stitch_view(design, records, violations)
     diameters = laid.circuit.of_stages(design.spec.diameters_mm)
-    scripts = "\n".join(_asset(f"{name}.js") for name in SCRIPTS)
-    return Template(_asset("page.html")).substitute(
+    return Template(asset("page.html")).substitute(
         title=escape(data["name"]),
-        style=_asset("style.css"),
+        style=asset("style.css"),
         warnings=warnings_section(data),
-        shape=shape_section(shape, Template(_asset("viewer.html"))),
+        shape=shape_section(shape, Template(asset("viewer.html"))),
         rules=rules_section(stitches),
-        records=len(records.command),
-        blocks=block_items(stitches["blocks"]),
+        player=player(records, stitches),
         cut=cut_drawing(laid),
         circuit=circuit_drawing(laid, data["circuits"], diameters),
         circuits=circuits_table(data),
@@ -90,12 +74,8 @@ def report_html(
             )
             if value is not None
         ),
-        script=f'"use strict";\n(() => {{\n{scripts}}})();',
+        script=script(),
     )
-
-
-def _asset(name: str) -> str:
-    return (files("sesame_cad.report") / "assets" / name).read_text(encoding="utf-8")
 
 
 def _colours(name: str) -> list[list[int]]:

@@ -6,7 +6,10 @@ from html import escape
 from string import Template
 from typing import Any
 
+from patterns.records import Records
+from sesame_cad.report.assets import asset
 from sesame_cad.report.phase_diagram import phase_diagram
+from sesame_cad.report.stitch_view import STITCH_DATA, of_layer
 from sesame_cad.report.tables import accuracy_table, facts_table, omitted_table, shapes_table
 from sesame_cad.summary import warnings
 
@@ -21,7 +24,11 @@ _WAY = {
 
 def warnings_section(data: Data) -> str:
     """Say what may spoil the array, before anything else."""
-    found = warnings(data)
+    return warnings_list(warnings(data))
+
+
+def warnings_list(found: list[str]) -> str:
+    """List warnings, or say that there are none."""
     if not found:
         return '<p class="good">No warnings.</p>'
     items = "".join(f"<li>{escape(one)}</li>" for one in found)
@@ -46,7 +53,17 @@ def _way(view: Data) -> str:
     return _WAY[view["whole"]]
 
 
-def block_items(blocks: list[Data]) -> str:
+def player(records: Records, stitches: Data, layer: str = "") -> str:
+    """Give a stitch player, of one of several layers if there are such."""
+    return Template(asset("player.html")).substitute(
+        id=of_layer("player", layer),
+        stitches=of_layer(STITCH_DATA, layer),
+        records=len(records.command),
+        blocks=_block_items(stitches["blocks"]),
+    )
+
+
+def _block_items(blocks: list[Data]) -> str:
     """List the blocks of stitches as buttons that lead to the stop before each."""
     return "".join(
         f'<li><button type="button" data-block="{k}"><span class="spool" '

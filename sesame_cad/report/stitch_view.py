@@ -22,6 +22,12 @@ Data = dict[str, Any]
 STITCH_DATA = "stitch-data"
 """Name of the data in the page."""
 
+
+def of_layer(name: str, layer: str) -> str:
+    """Give the name of something in a page, of one of several layers if there are such."""
+    return f"{name}-{layer}" if layer else name
+
+
 CODES = (Command.STITCH, Command.JUMP, Command.STOP, Command.END)
 """Commands by their number in the page."""
 

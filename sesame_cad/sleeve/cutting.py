@@ -77,7 +77,7 @@ def cutting(spec: Specification) -> Cutting:
         When pieces do not fit on the sheet, or round corners have no room.
     """
     count, beam = spec.layout.rows or 0, spec.beam.beam(spec.sleeve_place)
-    strip = spec.beam.constraint()
+    strip = spec.constraint
     laid = _laid(spec, beam, count)
     mat, kerf = spec.beam.sheet, spec.beam.kerf_mm
     spacing = spec.beam.spacing_mm + kerf

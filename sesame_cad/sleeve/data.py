@@ -42,6 +42,10 @@ def sleeve_design_data(design: SleeveDesign, files: dict[str, Data]) -> Data:
         "hoopings": {
             name: _hooping_data(design, name, made) for name, made in design.hoopings.items()
         },
+        "upper_hoop": {
+            "inside_mm": list(design.hoop.inside_mm),
+            "outside_mm": list(design.hoop.outside_mm),
+        },
         "losses": {kind: list(LOSSES[kind]) for kind in spec.output.formats},
         "specification": spec.model_dump(mode="json"),
         "files": files,
@@ -88,6 +92,7 @@ def beams_data(spec: Specification, made: Cutting) -> Data:
             "count": made.count,
             "length_mm": strip.length_mm,
             "width_mm": strip.width_mm,
+            "window_mm": strip.window_mm,
             **_holes_data(strip.rivets),
             "mass_g": _mass_g(strip.piece(), spec.beam),
         },

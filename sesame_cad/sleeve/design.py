@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
+from math import ceil
 
 from patterns.records import Records, plan_records
 from sesame_cad.pipeline import Design, Pattern, refusing
 from sesame_cad.sleeve.hold import Hold, hold
+from sesame_cad.sleeve.hoops import UpperHoop, upper_hoop
 from sesame_cad.sleeve.pattern import LOWER, UPPER, SleevePattern, sleeve_pattern
+from sesame_cad.sleeve_prediction.curves import ForceCurve, force_curves
 from sesame_cad.sleeve_prediction.segment import predict_sleeve
 from sesame_cad.specification import Specification
 from solver.sleeve.segment import SegmentPrediction
@@ -18,12 +21,12 @@ _NOTES: Mapping[str, str] = {
     LOWER: (
         "Sew and prepare the upper array first; cut, rivet and crimp nothing before the ties are "
         "sewn. After release cut the beams from their frame, push each sleeve over the ramps until "
-        "it lies compressed between the hooks, bend the beam to the shorter strip and rivet both "
-        "ends."
+        "it lies compressed between the hooks. Bend the beam through the window of a constraint "
+        "strip, and rivet both ends to the strip's."
     ),
     UPPER: (
         "Sew this array first, and leave it in its hoop: it is laid on the lower array, right side "
-        "up, before the ties of that one are sewn. Its hoop must lie within the lower one."
+        "up, before the ties of that one are sewn."
     ),
 }
 
@@ -36,6 +39,8 @@ class SleeveDesign:
     ----------
     spec : Specification
     pattern : SleevePattern
+    hoop : UpperHoop
+        The hoop of the upper array.
     prediction : SegmentPrediction or None
         None when none is asked for (`layout.shape = "none"`).
     hold : Hold or None
@@ -44,6 +49,7 @@ class SleeveDesign:
 
     spec: Specification
     pattern: SleevePattern
+    hoop: UpperHoop
     prediction: SegmentPrediction | None
     hold: Hold | None
 
@@ -51,9 +57,14 @@ class SleeveDesign:
     def hoopings(self) -> dict[str, Design]:
         """The layers by their names, each as the design of an array of its own."""
         return {
-            name: Design(_layer_spec(self.spec, name), layer, ())
+            name: Design(_layer_spec(self.spec, name, self.hoop), layer, ())
             for name, layer in self._layers().items()
         }
+
+    @cached_property
+    def force_curves(self) -> tuple[ForceCurve, ...]:
+        """Force of a sleeve against its pitch, cold and hot; none without a prediction."""
+        return () if self.prediction is None else force_curves(self.prediction)
 
     @cached_property
     def records(self) -> dict[str, Records]:
@@ -80,16 +91,28 @@ def sleeve_design(
     """
     progress("rows, ties and beams")
     pattern = refusing(spec, partial(sleeve_pattern, spec))
+    hoop = upper_hoop(spec, pattern.upper)
     if spec.layout.shape == "none":
-        return SleeveDesign(spec, pattern, None, None)
+        return SleeveDesign(spec, pattern, hoop, None, None)
     progress("sleeves and the beam that they bend")
     found = predict_sleeve(spec)
-    return SleeveDesign(spec, pattern, found, hold(spec, found))
+    return SleeveDesign(spec, pattern, hoop, found, hold(spec, found))
 
 
-def _layer_spec(spec: Specification, name: str) -> Specification:
-    """Give the specification under the layer's name, with what its operator must know."""
-    own = spec.output.notes
-    notes = f"{_NOTES[name]}\n{own}" if own else _NOTES[name]
-    output = spec.output.model_copy(update={"notes": notes})
-    return spec.model_copy(update={"name": f"{spec.name}-{name}", "output": output})
+def _layer_spec(spec: Specification, name: str, hoop: UpperHoop) -> Specification:
+    """Give the specification under the layer's name, with its hoop and notes for its operator."""
+    notes = [_NOTES[name]]
+    machine = spec.machine
+    if name == UPPER:
+        width, height = map(ceil, hoop.inside_mm)
+        notes.append(
+            f"Take a hoop of at least {width} x {height} mm inside and less than "
+            f"{machine.hoop_width_mm:g} x {machine.hoop_height_mm:g} mm outside: it must lie "
+            "inside the lower hoop."
+        )
+        smallest = {"hoop_width_mm": float(width), "hoop_height_mm": float(height)}
+        machine = machine.model_copy(update=smallest)
+    notes += [spec.output.notes] if spec.output.notes else []
+    output = spec.output.model_copy(update={"notes": "\n".join(notes)})
+    own = {"name": f"{spec.name}-{name}", "output": output, "machine": machine}
+    return spec.model_copy(update=own)

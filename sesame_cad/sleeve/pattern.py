@@ -98,7 +98,8 @@ def sleeve_pattern(spec: Specification) -> SleevePattern:
 def _circuit(spec: Specification, name: str, side: Side) -> Circuit:
     layout = tangent_layout(spec.layout.loops(), spec.layout.tolerance_mm)
     bend = spec.stitching.smallest_bend_diameters * spec.wire.diameter_mm
-    return row_wires(layout, name, side, spec.stitching.tail_length_mm, bend)
+    tail, joined = spec.stitching.tail_length_mm, spec.sleeve.rows_joined
+    return row_wires(layout, name, side, tail, bend, joined=joined)
 
 
 def _outline(spec: Specification, circuit: Circuit) -> Outline:

@@ -15,15 +15,21 @@ Data = dict[str, Any]
 def print_sleeves(data: Data, folder: Path) -> None:
     """Print the numbers that decide whether sleeves are worth sewing; warnings come first."""
     console = Console(highlight=False)
-    for warning in _warnings(data):
+    for warning in sleeve_warnings(data):
         console.print(f"[yellow]warning[/]: {warning}", soft_wrap=True)
-    console.print(grid([*_beam_rows(data["beams"]), *_model_rows(data), *_layer_rows(data)]))
+    console.print(grid(sleeve_rows(data)))
     if data["sleeve"] is None:
         console.print(f'{data["name"]}: no states are predicted (layout.shape = "none")')
     console.print(f"wrote {folder}/", soft_wrap=True)
 
 
-def _warnings(data: Data) -> list[str]:
+def sleeve_rows(data: Data) -> list[tuple[str, str]]:
+    """Name and value of the numbers."""
+    return [*_beam_rows(data["beams"]), *_model_rows(data), *_layer_rows(data)]
+
+
+def sleeve_warnings(data: Data) -> list[str]:
+    """Give what may spoil the sleeves, a line each; none if all is well."""
     found: list[str] = []
     for left in (data["sleeve"] or {}).get("omitted_terms", []):
         if left["matters"]:
@@ -50,7 +56,8 @@ def _beam_rows(beams: Data) -> list[tuple[str, str]]:
         ),
         (
             "constraint strips",
-            f"{count} of {strip['length_mm']:g} × {strip['width_mm']:g} mm, "
+            f"{count} of {strip['length_mm']:g} × {strip['width_mm']:g} mm around a window of "
+            f"{strip['window_mm']:g} mm, "
             f"{strip['mass_g']:.2f} g each",
         ),
         (

@@ -31,6 +31,9 @@ from sesame_cad.package_checks import (
 )
 from sesame_cad.pipeline import Design
 from sesame_cad.reading import Reading
+from sesame_cad.report.page import REPORT_FILE
+from sesame_cad.report.stitch_view import STITCH_DATA, of_layer
+from sesame_cad.report_checks import report_faults
 from sesame_cad.sleeve.cutting import Sheet
 from sesame_cad.sleeve.data import sleeve_design_data
 from sesame_cad.sleeve.design import SleeveDesign
@@ -56,6 +59,7 @@ def checked_sleeves(folder: Path, data: Data, made: SleeveDesign) -> Verificatio
         differences(data, sleeve_design_data(made, data["files"]), DESIGN_FILE),
         *(sewn_faults(reading) for reading in readings.values()),
         *(fabric_faults(reading) for reading in readings.values()),
+        *(_report_faults(layer, reading) for layer, reading in readings.items()),
         _tie_faults(made, lower),
         *(_sheet_faults(lower, made, sheet) for sheet in made.pattern.cutting.sheets),
         *(_solid_faults(lower, path, size) for path, size in sizes.items()),
@@ -91,6 +95,7 @@ def _expected_files(made: SleeveDesign) -> Iterator[str]:
     for sheet in made.pattern.cutting.sheets:
         yield from (f"cut/{spec.name}-{sheet.name}.{kind}" for kind in _READERS)
     yield f"plan/{spec.name}.svg"
+    yield REPORT_FILE
     if made.prediction is not None:
         yield FORCE_FILE
         if spec.output.pictures:
@@ -111,6 +116,20 @@ def _tie_faults(made: SleeveDesign, lower: Reading) -> Faults:
     except (DesignFileError, PatternError):
         return  # which is told of the file
     yield from limited((f"{path}: {fault}" for fault in found), MOST_OF_A_RULE)
+
+
+def _report_faults(layer: str, reading: Reading) -> Faults:
+    """The page shows the stitches of a layer's DST file."""
+    content = reading.content(REPORT_FILE)
+    if content is None:
+        return
+    try:
+        records = reading.dst
+    except DesignFileError:
+        return  # which is told of that file
+    if records is not None:
+        faults = report_faults(content, records, of_layer(STITCH_DATA, layer))
+        yield from (f"{REPORT_FILE}: {layer} array: {fault}" for fault in faults)
 
 
 def _sheet_faults(reading: Reading, made: SleeveDesign, sheet: Sheet) -> Faults:

@@ -120,5 +120,5 @@ def beam_piece(spec: Specification) -> CutPiece:
 
 def constraint_piece(spec: Specification) -> CutPiece:
     """Give the shorter strip as it is cut, its first hole at the origin."""
-    strip = spec.beam.constraint()
+    strip = spec.constraint
     return strip.piece().moved(strip.length_mm / 2 - spec.beam.hole_end_mm, 0.0)

@@ -56,7 +56,7 @@ def beam_segment(spec: Specification) -> BeamSegment:
         loops=columns,
         hot_modulus_Pa=spec.wire.modulus_hot_GPa * 1e9,
         fabric_thickness_m=spec.fabric.thickness_mm / 1e3,
-        constraint_width_m=beam.constraint_width_mm / 1e3,
+        constraint_width_m=2 * beam.constraint_rail_mm / 1e3,
         constraint_thickness_m=beam.thickness_mm / 1e3,
         sleeves_kg=2 * columns * loop_mass_kg(spec),
         tie_angle_rad=radians(spec.sleeve.tie_angle_deg),

@@ -23,7 +23,6 @@ from sesame_cad.solids import array_solid, boundary_segments, cell_bodies, union
 from sesame_cad.specification import Specification
 from sesame_cad.watertight import watertight
 from solver.sleeve.segment import SegmentPrediction
-from solver.strip.state import Side
 
 Vectors = NDArray[np.float64]
 
@@ -60,12 +59,12 @@ def assembly_solids(
 def strips(spec: Specification, assembly: Assembly) -> tuple[Manifold, Manifold]:
     """Give the bent beam with its holes and hooks, and the shorter strip, both as they are cut.
 
-    The shorter strip lies along the chord, on the beam's concave side.
+    The shorter strip lies along the chord, riveted to the beam's lower face in both states: that
+    which arches down passes through its window.
     """
     thick = spec.beam.thickness_mm
-    away = -1.0 if assembly.state.side is Side.UP else 1.0
     beam = _strip(beam_piece(spec), thick).warp_batch(assembly.beam.carried)
-    return beam, _strip(constraint_piece(spec), thick).translate((0.0, 0.0, away * thick))
+    return beam, _strip(constraint_piece(spec), thick).translate((0.0, 0.0, -thick))
 
 
 def sleeve_solid(spec: Specification, row: SleeveRow, bent: BentBeam) -> trimesh.Trimesh:

@@ -14,6 +14,9 @@ from patterns.mat import MATS, Mat
 from patterns.rivets import RivetHoles, joined_segments
 from sesame_cad.specification.section import Section
 
+WINDOW_ROOM_MM = 1.0
+"""Between a sleeve and the constraint's window, on each side: for cutting and riveting by hand."""
+
 RAMP_HEIGHTS = 2.0
 """Length of a hook's sloping back over its height: gentle enough for a loop to ride up."""
 
@@ -48,8 +51,13 @@ class BeamSection(Section):
         le=5000,
         description="the length in mm of the shorter strip that is riveted to both ends of a beam",
     )
-    constraint_width_mm: float = Field(
-        default=12.0, ge=1, le=500, description="the width in mm of that strip"
+    constraint_rail_mm: float = Field(
+        default=4.0,
+        ge=1,
+        le=500,
+        description=(
+            "the width in mm of each of that strip's two rails, between which beam and sleeves pass"
+        ),
     )
     hole_diameter_mm: float = Field(
         default=3.0, ge=0.5, le=50, description="the diameter in mm of the holes for rivet snaps"
@@ -141,9 +149,19 @@ class BeamSection(Section):
 
     @property
     def sleeve_room_mm(self) -> tuple[float, float]:
-        """Begin and end, from the strip's left end, of the room for a sleeve on the left half."""
-        beside_hole = self.hole_end_mm + self.hole_diameter_mm / 2
-        return max(beside_hole, self.corner_radius_mm + self.barb.reach_mm), self.length_mm / 2
+        """Begin and end, from the strip's left end, of the room for a sleeve on the left half.
+
+        It begins past the constraint's end, for a sleeve must fit into the constraint's window.
+        """
+        past_constraint = 2 * self.hole_end_mm + WINDOW_ROOM_MM
+        return max(past_constraint, self.corner_radius_mm + self.barb.reach_mm), self.length_mm / 2
+
+    def window_mm(self, sewn_mm: float) -> float:
+        """Width of the constraint's window for rows of loops that are so wide with their fabric.
+
+        Stripes keep rows from growing wider than they are sewn.
+        """
+        return sewn_mm + 2 * WINDOW_ROOM_MM
 
     @property
     def limits(self) -> CutLimits:
@@ -163,11 +181,11 @@ class BeamSection(Section):
         size = self.length_mm, self.width_mm
         return Beam(*size, holes, self.corner_radius_mm, (place,), self.barb)
 
-    def constraint(self) -> ConstraintStrip:
-        """Give the strip that holds a beam's ends nearer."""
-        holes = self._holes(self.chord_mm)
-        size = self.constraint_length_mm, self.constraint_width_mm
-        return ConstraintStrip(*size, holes, self.corner_radius_mm)
+    def constraint(self, sewn_mm: float) -> ConstraintStrip:
+        """Give the strip that holds a beam's ends nearer, for rows that are so wide as sewn."""
+        holes, window = self._holes(self.chord_mm), self.window_mm(sewn_mm)
+        size = self.constraint_length_mm, window + 2 * self.constraint_rail_mm
+        return ConstraintStrip(*size, holes, self.corner_radius_mm, window)
 
     def _holes(self, apart_mm: float) -> RivetHoles:
         return joined_segments(1, apart_mm, self.hole_end_mm, self.hole_diameter_mm)

@@ -17,7 +17,7 @@ from sesame_cad.specification.model import ModelSection
 from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.prediction import MOST_COUPLED, coupled_because, predicted_shape
-from sesame_cad.specification.sleeve import SleeveSection
+from sesame_cad.specification.sleeve import SleeveSection, sewn_width_mm
 from sesame_cad.specification.sleeve_faults import (
     beam_faults,
     misplaced,
@@ -260,7 +260,9 @@ def _sleeves(sections: Together) -> Iterator[Fault]:
     yield from unsuitable(others, sections.wiring)
     if not layout.loop_diameter_mm or sections.wire.diameter_mm >= layout.loop_diameter_mm:
         return  # which is said elsewhere
-    found = [*beam_faults(layout, beam, sections.sleeve), *sheet_faults(layout, beam)]
+    wire_mm = sections.wire.diameter_mm
+    sewn_mm = sewn_width_mm(layout.diameter_mm, wire_mm, sections.outline.margin_mm)
+    found = [*beam_faults(layout, beam, sections.sleeve), *sheet_faults(layout, beam, sewn_mm)]
     yield from found
     if not found:
         yield from tie_faults(
@@ -269,7 +271,7 @@ def _sleeves(sections: Together) -> Iterator[Fault]:
             sections.sleeve,
             machine=sections.machine.geometry(),
             stitching=sections.stitching.geometry(),
-            wire_diameter_mm=sections.wire.diameter_mm,
+            wire_diameter_mm=wire_mm,
         )
 
 

@@ -12,6 +12,11 @@ from sesame_cad.specification.layout import LayoutSection
 from sesame_cad.specification.section import Section
 
 
+def sewn_width_mm(loop_mm: float, wire_mm: float, margin_mm: float) -> float:
+    """Width of a row of loops with the fabric beside its wire, as it is sewn."""
+    return loop_mm + wire_mm + 2 * margin_mm
+
+
 class SleeveSection(Section):
     """How a sleeve is tied together and where it lies on its beam."""
 
@@ -53,6 +58,25 @@ class SleeveSection(Section):
         description=(
             "the end of the rows at which the upper array's tails leave (a word): that opposite to "
             "the lower array's, or the same, where each crimp then lies on another"
+        ),
+    )
+
+    upper_hoop_rim_mm: float = Field(
+        default=10.0,
+        ge=0,
+        le=1000,
+        description=(
+            "the width in mm of the rim of the upper array's hoop, which must lie inside that of "
+            "the lower one (machine.hoop_width_mm, machine.hoop_height_mm)"
+        ),
+    )
+    rows_joined: int = Field(
+        default=1,
+        ge=1,
+        le=1000,
+        description=(
+            "the number of neighbouring rows of an array that share one wire, in series, and are "
+            "heated together (a count); layout.rows must be a multiple of it"
         ),
     )
 

@@ -75,6 +75,10 @@ def beam_faults(layout: LayoutSection, beam: BeamSection, sleeve: SleeveSection)
         problem = f"must be less than beam.length_mm = {number_text(beam.length_mm)}"
         shown = number_text(beam.constraint_length_mm)
         yield Fault(("beam", "constraint_length_mm"), problem, shown)
+    rows = layout.rows or 1
+    if rows % sleeve.rows_joined:
+        problem = f"must divide layout.rows = {rows}: all circuits are of equally many rows"
+        yield Fault(("sleeve", "rows_joined"), problem, str(sleeve.rows_joined))
     columns, loop = layout.columns or 1, layout.loop_diameter_mm
     begin, end = beam.sleeve_room_mm
     room = end - begin
@@ -109,23 +113,25 @@ def _hole_faults(beam: BeamSection) -> Iterator[Fault]:
     why = f"for holes of beam.hole_diameter_mm = {hole} with {beside} diameters beside them"
     for keys, value, least in (
         ("width_mm", beam.width_mm, 2 * beam.hole_end_mm),
-        ("constraint_width_mm", beam.constraint_width_mm, 2 * beam.hole_end_mm),
-        ("constraint_length_mm", beam.constraint_length_mm, _shortest_mm(beam)),
+        ("constraint_length_mm", beam.constraint_length_mm, _shortest_constraint_mm(beam)),
         ("length_mm", beam.length_mm, _shortest_mm(beam)),
     ):
         if value < least * (1 - ROUNDING):
             yield Fault(("beam", keys), f"must be at least {least:.6g} {why}", number_text(value))
-    for key in ("width_mm", "constraint_width_mm"):
-        if 2 * beam.corner_radius_mm > getattr(beam, key):
-            problem = f"must be at most {getattr(beam, key) / 2:.6g}, half of beam.{key}"
-            shown = number_text(beam.corner_radius_mm)
-            yield Fault(("beam", "corner_radius_mm"), problem, shown)
-            return
+    if 2 * beam.corner_radius_mm > beam.width_mm:
+        problem = f"must be at most {beam.width_mm / 2:.6g}, half of beam.width_mm"
+        shown = number_text(beam.corner_radius_mm)
+        yield Fault(("beam", "corner_radius_mm"), problem, shown)
 
 
 def _shortest_mm(beam: BeamSection) -> float:
     """Length of a strip on which two holes have their room."""
     return 2 * beam.hole_end_mm + beam.hole_diameter_mm + beam.limits.web_mm
+
+
+def _shortest_constraint_mm(beam: BeamSection) -> float:
+    """Length of a constraint strip with a window between its ends."""
+    return 4 * beam.hole_end_mm + max(2 * beam.corner_radius_mm, beam.limits.web_mm)
 
 
 def tie_faults(
@@ -168,11 +174,11 @@ def tie_faults(
         yield Fault(("layout", "row_pitch_mm"), problem, shown)
 
 
-def sheet_faults(layout: LayoutSection, beam: BeamSection) -> Iterator[Fault]:
-    """Find strips that are larger than the sheet."""
+def sheet_faults(layout: LayoutSection, beam: BeamSection, sewn_mm: float) -> Iterator[Fault]:
+    """Find strips that are larger than the sheet; rows are ``sewn_mm`` wide with their fabric."""
     mat = beam.sheet
     width, height = mat.room_mm
-    for what, across, up in _largest_pieces(layout, beam):
+    for what, across, up in _largest_pieces(layout, beam, sewn_mm):
         if not fits(mat.room_mm, across, up) and not fits(mat.room_mm, up, across):
             yield Fault(
                 ("beam", "mat"),
@@ -182,7 +188,9 @@ def sheet_faults(layout: LayoutSection, beam: BeamSection) -> Iterator[Fault]:
             )
 
 
-def _largest_pieces(layout: LayoutSection, beam: BeamSection) -> Iterator[tuple[str, float, float]]:
+def _largest_pieces(
+    layout: LayoutSection, beam: BeamSection, sewn_mm: float
+) -> Iterator[tuple[str, float, float]]:
     """Name, length and width of the pieces that must fit on the sheet, as they shall come out."""
     kerf = beam.kerf_mm
     if beam.frame_tabs:
@@ -190,8 +198,5 @@ def _largest_pieces(layout: LayoutSection, beam: BeamSection) -> Iterator[tuple[
         yield "the frame with all beams", width + kerf, height + kerf
     else:
         yield "a beam", beam.length_mm + kerf, 2 * beam.reach_mm + kerf
-    yield (
-        "a constraint strip",
-        beam.constraint_length_mm + kerf,
-        beam.constraint_width_mm + kerf,
-    )
+    width = beam.window_mm(sewn_mm) + 2 * beam.constraint_rail_mm
+    yield "a constraint strip", beam.constraint_length_mm + kerf, width + kerf

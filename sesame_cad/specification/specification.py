@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from patterns.beam import ConstraintStrip
 from patterns.circuit import Diameters
 from patterns.hooks import SleevePlace
 from patterns.machine import Machine
@@ -24,7 +25,7 @@ from sesame_cad.specification.outline import OutlineSection
 from sesame_cad.specification.output import OutputSection
 from sesame_cad.specification.prediction import predicted_shape
 from sesame_cad.specification.section import Allowed, Section
-from sesame_cad.specification.sleeve import SleeveSection
+from sesame_cad.specification.sleeve import SleeveSection, sewn_width_mm
 from sesame_cad.specification.stitching import StitchingSection
 from sesame_cad.specification.supply import SupplySection
 from sesame_cad.specification.toml_text import number_text, toml_value
@@ -155,6 +156,12 @@ class Specification(Section):
     def sleeve_place(self) -> SleevePlace:
         """Where on its beam a sleeve is held compressed."""
         return self.sleeve.place(self.layout, self.beam)
+
+    @property
+    def constraint(self) -> ConstraintStrip:
+        """The strip that keeps a beam bent; its window lets the widest sleeve through."""
+        wire_mm, margin_mm = self.wire.diameter_mm, self.outline.margin_mm
+        return self.beam.constraint(sewn_width_mm(self.layout.diameter_mm, wire_mm, margin_mm))
 
     def to_toml(self) -> str:
         """Write the specification in full; reading it back gives an equal one.

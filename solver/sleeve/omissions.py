@@ -90,19 +90,6 @@ def tie_rise_share(segment: BeamSegment, cold: SleeveCouple, hot: SleeveCouple) 
     return max(shares)
 
 
-def meeting_share(segment: BeamSegment, cold: SleeveCouple, rest: Bistable) -> float:
-    """Share of the lower sleeve's crests that reach past the chord in state +.
-
-    There the constraint lies, and a sleeve wider than it would have to let it through.
-    """
-    state, strip = rest.unloaded[Side.UP], segment.strip
-    place = np.linspace(0, 1, len(state.headings_rad))
-    crests = np.linspace(*strip.covered, segment.loops + 1)
-    above = np.interp(crests, place, state.points_m[:, 1])
-    heading = np.interp(crests, place, state.headings_rad)
-    return float(np.mean(above - cold.arm_m * np.cos(heading) < 0))
-
-
 def _critical(found: Bistable) -> float:
     snap = found.pushed.get(Side.UP)
     return snap.critical_couple_N_m if snap else found.scene.largest_couple_N_m
@@ -135,7 +122,6 @@ def left_out(
     tie = constraint_share(segment, rest)
     weight = _sleeves_weight_share(segment, rest.unloaded[Side.UP])
     rise = tie_rise_share(segment, cold, hot)
-    meets = meeting_share(segment, cold, rest)
     terms = [
         OmittedTerm(
             "couples that do not fall evenly with the beam's curvature",
@@ -166,12 +152,6 @@ def left_out(
             "rise of the free wire at the ties / the couple's arm",
             rise,
             matters=rise > _MUCH,
-        ),
-        OmittedTerm(
-            "contact of the sleeve on the concave side with the constraint",
-            "share of its crests that reach past the chord",
-            meets,
-            matters=meets > 0,
         ),
     ]
     stripe = segment.cell.stripe_m

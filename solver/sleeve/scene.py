@@ -28,7 +28,8 @@ class BeamSegment:
         Of the wire above its transition.
     fabric_thickness_m : float
     constraint_width_m, constraint_thickness_m : float
-        Of the shorter strip.
+        Of the shorter strip; width of both rails together where it has a window. Sleeves pass
+        through that window.
     sleeves_kg : float
         Mass of both sleeves, for what gravity would do.
     tie_angle_rad : float

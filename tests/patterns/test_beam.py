@@ -1,6 +1,7 @@
 from dataclasses import replace
 from math import atan2, pi, tan
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -119,6 +120,24 @@ def test_a_constraint_strip_with_round_ends() -> None:
     assert piece.area_mm2 == pytest.approx(94 * 12 + 36 * pi - 2 * pi * 9 / 4)
     assert piece.size_mm == pytest.approx((106, 12))
     assert_sound(piece)
+
+
+def test_a_constraint_strip_with_a_window() -> None:
+    rivets = joined_segments(1, 94.0, 6.0, 3.0)
+    strip = ConstraintStrip(106.0, 50.0, rivets, 2.0, window_mm=42.0)
+    piece = strip.piece()
+    rounding = (4 - pi) * 2**2  # of four corners, outside and inside alike
+    assert piece.area_mm2 == pytest.approx(106 * 50 - (94 - 12) * 42 - 2 * pi * 9 / 4)
+    (window,) = piece.openings
+    assert window.area_mm2 == pytest.approx(rounding - (94 - 12) * 42)
+    # it ends 6 mm from the holes' centres, as the strip does
+    assert np.ptp(window.ring(), axis=0) == pytest.approx((94 - 12, 42), abs=1e-3)
+    assert_sound(piece)
+    with pytest.raises(PatternError, match="must be narrower"):
+        ConstraintStrip(106.0, 42.0, rivets, 2.0, window_mm=42.0)
+    short = ConstraintStrip(20.0, 50.0, joined_segments(1, 8.0, 6.0, 3.0), 2.0, 42.0)
+    with pytest.raises(PatternError, match="no room for a window"):
+        short.piece()
 
 
 def test_the_mass_is_that_of_polycarbonate() -> None:

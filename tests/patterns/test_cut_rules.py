@@ -166,5 +166,13 @@ def test_each_segment_is_compared_with_the_constraint() -> None:
     assert (fault.allowed, fault.x_mm) == (92.0, -54.0)
 
 
+def test_a_window_too_narrow_for_the_beam_and_its_hooks_is_found() -> None:
+    widest = BEAM.width_mm + 2 * BEAM.hook_height_mm
+    wide = replace(STRIP, width_mm=widest + 10, window_mm=widest + 0.1)
+    assert not check_constraint(wide, BEAM, LIMITS)
+    fault = only(check_constraint(replace(wide, window_mm=widest - 0.1), BEAM, LIMITS))
+    assert found(fault) == ("constraint-window", pytest.approx(widest - 0.1), widest)
+
+
 def test_a_constraint_is_checked_as_a_piece() -> None:
     assert check_constraint(replace(STRIP, width_mm=11.0), BEAM, LIMITS)[0].rule == "hole-edge"

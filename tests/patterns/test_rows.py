@@ -11,10 +11,12 @@ from patterns.exits import LEAST_BEND_MM
 from patterns.laid_wire import laid_wire
 from patterns.lattice import rows_apart
 from patterns.layout import tangent_layout
+from patterns.loop_order import loops_in_order
 from patterns.machine import Machine
+from patterns.outline import cut_outline
 from patterns.plan import BlockKind, StitchPlan
 from patterns.rows import row_wires
-from patterns.rules import check_plan
+from patterns.rules import check_outline, check_plan
 from patterns.rules.ties import check_in_hoop, check_ties
 from patterns.sleeve_ties import tie_block
 from patterns.stitch_plan import stitch_plan
@@ -28,9 +30,9 @@ STITCHING = Stitching(stripes="columns")
 CLEAR = {"clear_of_wire_mm": 0.525, "clear_of_beams_mm": 1.0}
 
 
-def wires(side=Side.LEFT, rows=2, columns=3):
+def wires(side=Side.LEFT, rows=2, columns=3, joined=1, bend_mm=25 * WIRE_MM):
     layout = tangent_layout(rows_apart(rows, columns, LOOP_MM, PITCH_MM))
-    return row_wires(layout, "lower", side, 30.0, 25 * WIRE_MM)
+    return row_wires(layout, "lower", side, 30.0, bend_mm, joined=joined)
 
 
 def ties(circuit, *above, **changes):
@@ -93,6 +95,49 @@ def test_tails_on_the_right_are_those_on_the_left_turned_round(lower):
 def test_tails_do_not_leave_across_the_rows():
     with pytest.raises(PatternError, match="left or right, not at the top"):
         wires(Side.TOP)
+
+
+@pytest.mark.parametrize("side", [Side.LEFT, Side.RIGHT])
+@pytest.mark.parametrize("columns", [1, 3])
+def test_joined_rows_are_one_wire_in_series_that_keeps_every_rule(side, columns):
+    single, joined = (wires(side, 3, columns, k) for k in (1, 3))
+    (part,) = joined.parts
+    assert part.layout == single.layout
+    assert joined.switches == single.switches
+    assert len(part.stages) == 4  # n rows of two stages make n + 1
+    bend = max(25 * WIRE_MM, LEAST_BEND_MM)
+    between = PITCH_MM / 2 - bend  # radius of the turns: half the distance of the tails
+    assert part.wire_length_mm == pytest.approx(
+        sum(one.wire_length_mm for one in single.parts) - 4 * 30.0 + 2 * np.pi * between
+    )
+    assert part.smallest_radius_mm == pytest.approx(min(bend, between))
+    gaps, kinks = part.wire.joints()
+    assert gaps.max() < 1e-9
+    assert kinks.max() < 1e-9
+    assert joined.closed
+    for one in joined.crossings:
+        places = np.array([one.first_mm, one.second_mm])
+        for point in np.concatenate([part.wire.at(s)[0] for s in places]):
+            assert point == pytest.approx((one.x_mm, one.y_mm), abs=1e-9)
+    plan = stitch_plan(joined, STITCHING, MACHINE, WIRE_MM, ())
+    assert not check_plan(joined, plan, MACHINE, STITCHING, WIRE_MM)
+    outline = cut_outline(joined, WIRE_MM, 2.0, 1.0)
+    assert len(outline.outsides) == 1
+    assert not check_outline(outline, joined, WIRE_MM, 2.0, plan)
+    assert set(loops_in_order(joined)) == set(range(3 * columns))
+
+
+def test_four_rows_joined_by_two_are_two_circuits():
+    joined = wires(rows=4, joined=2)
+    assert joined.part_names == ("lower 1", "lower 2")
+    assert [len(loops) for loops in joined.part_loops] == [6, 6]
+    with pytest.raises(PatternError, match="4 rows cannot be joined by 3"):
+        wires(rows=4, joined=3)
+
+
+def test_rows_with_no_room_for_the_bend_between_them_are_not_joined():
+    with pytest.raises(PatternError, match="with a radius of 8 mm, less than 9 mm"):
+        wires(joined=2, bend_mm=9.0)
 
 
 def test_rows_that_nearly_touch_are_refused():

@@ -1,7 +1,9 @@
 """Packages of sleeves: both hoopings, sheets, numbers; and a check that finds what is spoilt."""
 
 import json
+import re
 import shutil
+from html import escape
 from math import pi
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,14 +11,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import sesame_cad
 from patterns.plan import UNITS_PER_MM, BlockKind
 from patterns.records import plan_from_records
 from sesame_cad.errors import InputError
+from sesame_cad.files.cut_line import cut_line
+from sesame_cad.files.cut_svg import cut_line_path, mat_sheet
 from sesame_cad.files.dst import decode_dst, write_dst
 from sesame_cad.package import write_package
 from sesame_cad.package_files import file_data
+from sesame_cad.report.embedding import read_embedded
+from sesame_cad.report.stitch_view import viewed_records
 from sesame_cad.sleeve.design import sleeve_design
 from sesame_cad.sleeve.hold import hold
+from sesame_cad.sleeve.hoops import upper_hoop
 from sesame_cad.specification import load_specification, specification_from
 from sesame_cad.verification import verified, verify
 
@@ -94,7 +102,7 @@ def test_the_files_are_those_of_two_hoopings_and_of_the_sheets(package):
         for ending in endings
     }
     sheets = {f"cut/small-{one}.{kind}" for one in ("beams", "coupon") for kind in ("svg", "dxf")}
-    assert found == layers | sheets | {"plan/small.svg", "design.json"}
+    assert found == layers | sheets | {"plan/small.svg", "report.html", "design.json"}
 
 
 def test_the_program_makes_the_same_bytes_again_and_checks_them(
@@ -153,7 +161,11 @@ def test_the_numbers_of_beams_are_those_of_the_section(package):
     assert beams["count"] == strip["count"] == 2
     assert beams["hole_positions_mm"] == [6, 64]
     assert strip["hole_positions_mm"] == [6, 62]
-    area = 68 * 12 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4
+    assert strip["window_mm"] == pytest.approx(25 + 0.3 + 4 + 2)
+    # corners are as round outside as in the window, and cancel
+    width = strip["window_mm"] + 8
+    assert strip["width_mm"] == pytest.approx(width)
+    area = 68 * width - (68 - 24) * strip["window_mm"] - 2 * pi * 3**2 / 4
     assert strip["mass_g"] == pytest.approx(area * 0.38 * 1.2e-3)
     assert beams["mass_g"] > (70 * 14 - (4 - pi) * 2**2 - 2 * pi * 3**2 / 4) * 0.38 * 1.2e-3
     assert data["sleeve"] is data["bistable"] is beams["hold"] is None
@@ -196,6 +208,60 @@ def test_a_sheet_that_was_changed_is_found(spoilt, package, kind):
     assert faults[0].startswith(path)
 
 
+def test_the_report_shows_the_stitches_of_both_layers_and_every_sheet(package, made):
+    page = (package / "report.html").read_text(encoding="utf-8")
+    for layer, hooping in made.hoopings.items():
+        shown = viewed_records(read_embedded(page, f"stitch-data-{layer}"))
+        assert shown.same_as(made.records[layer])
+        assert f'data-stitches="stitch-data-{layer}"' in page
+        for block in hooping.pattern.plan.blocks:
+            assert escape(block.instruction) in page
+    for sheet in made.pattern.cutting.sheets:
+        for line in (line for line in map(cut_line, sheet.cuts) if not line.is_circle):
+            assert cut_line_path(mat_sheet(sheet.nested.mat), line) in page
+    assert "No states are predicted" in page
+    assert not re.findall(r'(?:src|href)="(?!data:|#)[a-z]+:', page)
+
+
+def test_a_report_that_shows_other_stitches_is_found(spoilt, package):
+    page = (package / "report.html").read_text(encoding="utf-8")
+    swapped = page.replace("stitch-data-lower", "stitch-data-none").replace(
+        "stitch-data-upper", "stitch-data-lower"
+    )
+    faults = verify(spoilt("report.html", swapped.encode()))
+    assert faults == (
+        "report.html: upper array: the page holds no data named stitch-data-upper",
+        "report.html: lower array: its stitches are not those of the DST file",
+    )
+
+
+def test_python_programs_get_values_and_the_same_folder(package, tmp_path):
+    found = sesame_cad.design(SMALL | {"name": "small"})
+    assert isinstance(found, sesame_cad.DesignedSleeves)
+    assert found.prediction is found.hold is None
+    assert found.data["beams"]["count"] == found.pattern.cutting.count == 2
+    found.write(tmp_path / "again")
+    for file in package.rglob("*"):
+        if file.is_file():
+            assert (
+                tmp_path / "again" / file.relative_to(package)
+            ).read_bytes() == file.read_bytes()
+    shown = found._repr_html_()
+    assert "2 of 70 × 14 × 0.38 mm" in shown
+    assert shown.count("<img ") == 2
+
+
+def test_joined_rows_are_one_circuit_in_each_array(tmp_path):
+    spec = specification_from(SMALL | {"sleeve": {"rows_joined": 2}}, "small")
+    data = write_package(spec, tmp_path / "small", lambda _: None)
+    for layer in data["hoopings"].values():
+        (circuit,) = layer["circuits"]
+        assert circuit["loops"] == [0, 1, 2, 3]
+        assert layer["circuit"]["closed"]
+        assert layer["electrics"]["sewn_net"]["shorts"] == 0
+    assert verify(tmp_path / "small") == ()
+
+
 def test_what_is_missing_or_untrue_is_found(spoilt, package):
     folder = spoilt("plan/small.svg", (package / "plan/small.svg").read_bytes())
     (folder / "cut/small-coupon.svg").unlink()
@@ -226,6 +292,22 @@ def test_what_is_predicted_is_in_the_package_and_checked(tmp_path):
     faults = verify(tmp_path / "small")
     assert faults
     assert all(fault.startswith(f"{solids[0]}: ") and "predicted" in fault for fault in faults)
+
+
+def test_the_upper_hoop_lies_inside_the_lower_one(spec, made):
+    points = list(made.pattern.upper.outline.outsides)
+    points += [run.needles / UNITS_PER_MM for run in made.pattern.upper.plan.blocks[0].runs]
+    reach = 2 * np.abs(np.concatenate(points)).max(axis=0)  # marks lie around all else
+    assert made.hoop.inside_mm == pytest.approx(reach)
+    assert np.subtract(made.hoop.outside_mm, made.hoop.inside_mm) == pytest.approx([20, 20])
+    assert "hoop of at least" in made.hoopings["upper"].spec.output.notes
+    assert "hoop of at least" not in made.hoopings["lower"].spec.output.notes
+    wide = spec.sleeve.model_copy(update={"upper_hoop_rim_mm": 200.0})
+    with pytest.raises(InputError) as caught:
+        upper_hoop(spec.model_copy(update={"sleeve": wide}), made.pattern.upper)
+    width, height = caught.value.faults
+    assert "machine.hoop_width_mm = 406: must be at least" in width
+    assert "machine.hoop_height_mm = 330: must be at least" in height
 
 
 def couples(cold_mm, hot_mm):

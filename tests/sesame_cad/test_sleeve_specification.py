@@ -36,7 +36,7 @@ def test_left_to_itself_the_sleeve_fills_half_of_the_beam_and_its_pieces_keep_th
     assert place.end_mm == pytest.approx(spec.beam.length_mm / 2)
     assert place.length_mm == pytest.approx(4 * spec.compressed_pitch_mm)
     assert not check_beam(beam, spec.beam.limits)
-    assert not check_constraint(spec.beam.constraint(), beam, spec.beam.limits)
+    assert not check_constraint(spec.constraint, beam, spec.beam.limits)
     longer = load_specification(
         EXAMPLE, {"sleeve.compressed_pitch_mm": spec.compressed_pitch_mm + 0.1 - 0.1}
     )
@@ -50,6 +50,16 @@ def test_the_right_half_is_the_left_one_mirrored():
     assert left.length_mm == right.length_mm == 60
 
 
+def test_a_sleeve_passes_through_the_constraint_s_window():
+    spec = sleeve()
+    strip = spec.constraint
+    sewn = 35 + 0.38 + 2 * 2.0  # loop, wire, fabric on both sides
+    assert strip.window_mm == pytest.approx(sewn + 2)
+    assert strip.width_mm == pytest.approx(sewn + 2 + 2 * 4)
+    # it begins past the window's end, which is as far from the strip's end as twice the hole
+    assert spec.sleeve_place.start_mm == pytest.approx(2 * 6 + 1)
+
+
 def test_it_is_written_and_read_back():
     spec = sleeve(beam__mat="sheet", sleeve__half="right")
     assert specification_from(tomllib.loads(spec.to_toml()), "x") == spec
@@ -59,12 +69,14 @@ def test_it_is_written_and_read_back():
     ("key", "value", "named", "said"),
     [
         ("beam.constraint_length_mm", 160, "beam.constraint_length_mm = 160", "must be less than"),
-        ("beam.constraint_length_mm", 14, "beam.constraint_length_mm = 14", "at least 15.8"),
+        ("beam.constraint_length_mm", 14, "beam.constraint_length_mm = 14", "at least 28 "),
         ("beam.width_mm", 11, "beam.width_mm = 11", "must be at least 12 for holes"),
         ("beam.width_mm", 21, "beam.width_mm = 21", "must be at most 20.1202"),
-        ("beam.corner_radius_mm", 7, "beam.corner_radius_mm = 7", "must be at most 6"),
-        ("sleeve.compressed_pitch_mm", 17.3, "sleeve.compressed_pitch_mm = 17.3", "at most 17.25"),
+        ("beam.corner_radius_mm", 11, "beam.corner_radius_mm = 11", "must be at most 10"),
+        ("sleeve.compressed_pitch_mm", 17.3, "sleeve.compressed_pitch_mm = 17.3", "at most 16.75"),
         ("layout.columns", 1, "sleeve.compressed_pitch_mm", "give it, or take a shorter"),
+        ("sleeve.rows_joined", 4, "sleeve.rows_joined = 4", "must divide layout.rows = 6"),
+        ("beam.constraint_rail_mm", 140, 'beam.mat = "scanncut-12x12"', "too small: a constraint"),
         ("layout.row_pitch_mm", 38, "layout.row_pitch_mm = 38", "must be at least 38.75"),
         ("sleeve.tie_length_mm", 2, "sleeve.tie_length_mm = 2", "must be at least 2.73"),
         ("layout.rows", 7, 'beam.mat = "scanncut-12x12"', "too small: the frame with all beams"),

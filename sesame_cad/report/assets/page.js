@@ -23,7 +23,8 @@ function start() {
       root.querySelector('.blind-note').append(` (${fault.message})`);
     }
   }
-  made.player = new Player(document.getElementById('player'), read('stitch-data'));
+  made.players = [...document.querySelectorAll('.player')].map((root) => new Player(root, read(root.dataset.stitches)));
+  [made.player] = made.players;
   return made;
 }
 

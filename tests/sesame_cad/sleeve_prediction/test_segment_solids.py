@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from manifold3d import Manifold, Mesh
 
 from sesame_cad.files.stl import read_stl, write_stl
 from sesame_cad.sleeve_prediction.assembly import assemblies, beam_piece, constraint_piece
@@ -36,9 +37,22 @@ def test_the_beam_is_bent_as_its_state(spec, prediction, parts):
 def test_the_constraint_is_straight_between_the_rivets(spec, parts):
     size = parts["constraint"].extents
     beam = spec.beam
-    expected = [beam.constraint_length_mm, beam.constraint_width_mm, beam.thickness_mm]
+    expected = [beam.constraint_length_mm, spec.constraint.width_mm, beam.thickness_mm]
     assert size == pytest.approx(expected, abs=1e-3)
     assert parts["constraint"].bounds[0, 0] == pytest.approx(-beam.hole_end_mm, abs=1e-3)
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_sleeves_pass_through_the_window_of_the_constraint(spec, prediction, which):
+    assembly = assemblies(spec, prediction)[which]
+    parts = dict(assembly_solids(spec, assembly))
+    constraint = _manifold(parts.pop("constraint"))
+    for name in [name for name in parts if name.endswith(("cold", "hot"))]:
+        assert (constraint ^ _manifold(parts[name])).volume() == 0, name
+
+
+def _manifold(solid):
+    return Manifold(Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32)))
 
 
 def test_rows_stand_off_both_faces(spec, prediction):

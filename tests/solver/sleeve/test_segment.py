@@ -119,18 +119,6 @@ def test_the_beams_own_omissions_are_told_too(prediction):
     assert _size(prediction, "weight of the sleeves") == pytest.approx(work / rest.bending_J)
 
 
-def test_crests_past_the_chord_are_counted(prediction, segment):
-    """All crests of the lower row lie an arm below the beam, of which the chord is y = 0."""
-    rest, arm = prediction.rest.unloaded[Side.UP], prediction.cold.arm_m
-    place = np.linspace(*STRIP.covered, 5) * 128
-    count = 0
-    for at in place:
-        x = round(at)
-        count += rest.points_m[x, 1] - arm * np.cos(rest.headings_rad[x]) < 0
-    assert 0 < count < 5
-    assert _size(prediction, "contact of the sleeve") == pytest.approx(count / 5)
-
-
 def test_ties_beside_the_valleys(prediction, segment, cell):
     """Ties in the valleys themselves hold nothing else down."""
     assert _size(prediction, "ties beside the valleys") == 0
