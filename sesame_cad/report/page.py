@@ -37,6 +37,7 @@ SCRIPTS = (
     "dragging",
     "geometry",
     "shapes",
+    "heating",
     "painter",
     "viewer",
     "records",
