@@ -310,6 +310,15 @@ def test_links_lead_to_files_beside_the_page_and_nowhere_else(stitched):
         assert (target / link).is_file()
 
 
+def test_every_file_of_a_package_is_linked_and_explained(large_array):
+    text = (large_array / "report.html").read_text()
+    listed = dict(re.findall(r'<li><a href="([^"]+)">[^<]*</a> <span>([^<]*)</span>', text))
+    on_disk = {file.relative_to(large_array).as_posix() for file in large_array.rglob("*.*")}
+    assert set(listed) == on_disk - {"report.html"}
+    assert all(listed.values())
+    assert {Path(link).suffix for link in listed} >= {".stl", ".3mf", ".glb", ".vtu"}
+
+
 def test_a_name_cannot_break_out_of_the_page(stitched):
     made, _, data, records = stitched
     evil = "</script><script>alert(1)</script><b>"
@@ -481,6 +490,35 @@ def test_the_player_ends_at_the_last_record(opened, stitched):
     stitches = data["stitch"]["stitches"]
     assert say["stitch"].inner_text() == f"stitch {stitches} of {stitches}"
     assert page.locator("[name=record]").input_value() == str(count)
+
+
+def test_stitches_move_with_the_view_and_are_drawn_anew(opened, stitched):
+    """Shifted at once, and the same when the view has settled."""
+    _, target, _, _ = stitched
+    page = opened(target / "report.html")
+    shift_px = 24
+    same = """async (shift) => {
+      const { player } = sesameReport, { picture } = player, { canvas } = picture;
+      const pixels = (left) => canvas.getContext('2d')
+        .getImageData(left, 0, canvas.width - shift, canvas.height).data;
+      const differing = (one, other) => one.filter((v, i) => Math.abs(v - other[i]) > 8).length;
+      player.draw(true);
+      const before = pixels(0);
+      picture.pan(shift, 0);
+      player.draw();
+      const moving = [picture.stale, differing(before, pixels(shift))];
+      picture.zoomBy(2);
+      player.draw();
+      const nearer = differing(before, pixels(shift));
+      picture.zoomBy(0.5);
+      player.draw();
+      while (picture.stale) await new Promise((next) => setTimeout(next, 10));
+      return [...moving, nearer, differing(before, pixels(shift))];
+    }"""
+    stale, moving, nearer, settled = page.evaluate(same, shift_px)
+    assert (stale, moving) == (True, 0)
+    # soft edges come out a little different in another place
+    assert settled < 0.02 * nearer
 
 
 def test_clicks_measure_between_needle_points(opened, stitched):
