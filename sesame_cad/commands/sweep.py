@@ -13,6 +13,8 @@ import click
 from sesame_cad.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from sesame_cad.sweeps.axis import Axis
     from sesame_cad.sweeps.plan import SweepPlan
     from sesame_cad.sweeps.store import SweepStore
@@ -119,7 +121,8 @@ def command(
         _print(data, store.folder)
 
 
-def _axes(ranges: dict[str, str]) -> tuple[Axis, ...]:
+def _axes(ranges: dict[str, str], named: Callable[[str], str]) -> tuple[Axis, ...]:
+    """Read the ranges of keys; all faults at once, each with the option that gave it."""
     from sesame_cad.sweeps.axis import parse_axis
 
     axes: list[Axis] = []
@@ -128,7 +131,7 @@ def _axes(ranges: dict[str, str]) -> tuple[Axis, ...]:
         try:
             axes.append(parse_axis(key, text))
         except ValueError as error:
-            faults.append(f"{key}: {error}")
+            faults.append(f"{named(key)}: {error}")
     if faults:
         raise InputError(*faults)
     return tuple(axes)
@@ -141,7 +144,8 @@ def _loops_plan(sets: tuple[str, ...], state: str | None, given: dict[str, Any])
     from sesame_cad.sweeps.loops import KEYS, LoopModel
     from sesame_cad.sweeps.plan import SweepPlan
 
-    axes = _axes({key: given[key] if given[key] is not None else FIG_2[key] for key in KEYS})
+    ranges = {key: given[key] if given[key] is not None else FIG_2[key] for key in KEYS}
+    axes = _axes(ranges, lambda key: f"--{key.replace('_', '-')}")
     reading = given["reading"] or FIG_2["reading"]
     grid = _GRID.fullmatch((given["loops"] or "1x1").strip())
     if grid is None:
@@ -191,7 +195,9 @@ def _designs_plan(
     specification = load_specification(path)
     mapping = specification.model_dump(mode="json", exclude_none=True)
     coupled = specification.predicted_shape == "coupled"
-    return SweepPlan(DesignModel(mapping, state, coupled), _axes(ranges))
+    return SweepPlan(
+        DesignModel(mapping, state, coupled), _axes(ranges, lambda key: f"--set {key}")
+    )
 
 
 def _no_such_key(key: str) -> str:
