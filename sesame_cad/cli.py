@@ -91,7 +91,9 @@ def main() -> None:
         _say(("interrupted; nothing was changed",))
         status = INTERRUPTED
     except click.ClickException as error:
-        _say((error.format_message(),))
+        from sesame_cad.usage import usage_fault
+
+        _say((usage_fault(error),))
         status = BAD_INPUT
     except OSError as error:
         _say((f"{error.filename or 'writing'}: {error.strerror}",))

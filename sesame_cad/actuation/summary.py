@@ -20,7 +20,9 @@ def print_force(data: Data, folder: Path | None) -> None:
     pairs = data.get("curve") or [data]
     for name in ("cold", "hot"):
         for left in _mattering(pair[name] for pair in pairs):
-            console.print(f"[yellow]warning[/]: {name}: {left} is left out, and matters")
+            console.print(
+                f"[yellow]warning[/]: {name}: {left} is left out, and matters", soft_wrap=True
+            )
     table = Table(box=None, pad_edge=False)
     for heading in ("gap", "force cold", "hot", "height cold", "hot"):
         table.add_column(heading, justify="right")

@@ -26,13 +26,16 @@ _KINDS = (".svg", ".csv", ".json")
     type=click.Path(path_type=Path),
     help="File to write, .svg, .csv or .json. [default: NAME-chain.svg]",
 )
-def command(spec: Path, states: str, output: Path | None) -> None:
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, and nothing else, to stdout.")
+@click.option("--quiet", "-q", is_flag=True, help="Print nothing.")
+def command(spec: Path, states: str, output: Path | None, as_json: bool, quiet: bool) -> None:
     """Predict the plane curve of a chain of SPEC's beams, and write it 1:1.
 
     A segment in state + is arched up, to the left of the way along the chain. A file that exists is
     left as it is.
     """
-    from sesame_cad.sleeve_prediction.chain import chain_curve
+    from sesame_cad.progress import telling
+    from sesame_cad.sleeve_prediction.chain import chain_curve, chain_json
     from sesame_cad.specification import load_specification
     from sesame_cad.staging import write_new_file
     from solver.errors import NotConvergedError
@@ -42,11 +45,17 @@ def command(spec: Path, states: str, output: Path | None) -> None:
     read = load_specification(spec)
     target = output or Path(f"{read.name}-chain.svg")
     try:
-        curve = chain_curve(read, states)
+        with telling(quiet=quiet or as_json) as progress:
+            progress("solving a segment")
+            curve = chain_curve(read, states)
     except NotConvergedError as error:
         click.echo(f"error: {error}", err=True)
         raise click.exceptions.Exit(1) from None
     write_new_file(target, _content(curve, target.suffix.lower(), read.name).encode())
+    if as_json:
+        click.echo(chain_json(curve), nl=False)
+    if as_json or quiet:
+        return
     x, y = curve.rivets_mm[-1]
     click.echo(f"wrote {target}; it ends at {x:.1f}, {y:.1f} mm, turned by {curve.turn_deg:.1f}°")
 

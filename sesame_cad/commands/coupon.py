@@ -16,12 +16,16 @@ import click
 )
 @click.option("--name", default="coupon", show_default=True, help="Name of the coupon.")
 @click.option("--output", "-o", type=click.Path(path_type=Path), help="Folder to make. [NAME]")
+@click.option("--json", "as_json", is_flag=True, help="Print design.json to stdout.")
+@click.option("--quiet", "-q", is_flag=True, help="Print nothing.")
 def command(
     wire_diameter: str,
     machine: str | None,
     formats: tuple[str, ...],
     name: str,
     output: Path | None,
+    as_json: bool,
+    quiet: bool,
 ) -> None:
     """Make a coupon to sew with your wire before the first array.
 
@@ -29,8 +33,11 @@ def command(
     it crosses itself over wider and wider covers (row C). Pick the cells that hold; design.json
     and the picture say which value of which key each cell stands for.
     """
+    import json
+
     from sesame_cad.coupon import write_coupon
     from sesame_cad.errors import InputError
+    from sesame_cad.progress import telling
     from sesame_cad.quantities import parse_quantity
     from sesame_cad.specification import specification_from
 
@@ -49,7 +56,13 @@ def command(
         sections["machine"] = {"profile": machine}
     spec = specification_from(sections, name, "options")
     target = output or Path(name)
-    data = write_coupon(spec, target)
+    with telling(quiet=quiet or as_json) as progress:
+        progress("planning the coupon")
+        data = write_coupon(spec, target)
+    if as_json:
+        click.echo(json.dumps(data, indent=2, ensure_ascii=False))
+    if as_json or quiet:
+        return
     cells, stitch = data["cells"], data["stitch"]
     click.echo(
         f"wrote {target}: {len(cells)} cells, {stitch['stitches']} stitches, "

@@ -98,7 +98,9 @@ def command(
     target = output or Path(specification.name)
     if faults is not None:
         check_picture_name(faults)
-    spread = _tolerances(specification) if tolerances else None
+    with telling(quiet=quiet or as_json) as progress:
+        progress("tolerances")
+        spread = _tolerances(specification) if tolerances else None
     try:
         with telling(quiet=quiet or as_json) as progress:
             data = write_package(specification, target, progress)

@@ -47,11 +47,13 @@ if TYPE_CHECKING:
     type=click.Path(path_type=Path),
     help="File to write. [default: NAME-STATE.fe, or loop.fe without SPEC]",
 )
+@click.option("--quiet", "-q", is_flag=True, help="Print nothing.")
 def command(
     spec: Path | None,
     state: str | None,
     refinements: int,
     output: Path | None,
+    quiet: bool,
     **loop: float | str | None,
 ) -> None:
     """Write a loop of SPEC, a TOML file, or of the options alone for Surface Evolver 2.70.
@@ -68,7 +70,8 @@ def command(
         name, scene = _scene_of_file(spec, state or "cold")
     target = output or Path(f"{name}.fe")
     _write(target, scene, refinements)
-    click.echo(f"wrote {target}; next: evolver {target}, and type solve at its prompt")
+    if not quiet:
+        click.echo(f"wrote {target}; next: evolver {target}, and type solve at its prompt")
 
 
 def _refuse_state(state: str | None) -> None:

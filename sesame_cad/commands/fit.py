@@ -64,6 +64,7 @@ def command(
 
     from sesame_cad.fitting.heights import read_heights_mm
     from sesame_cad.fitting.report import fit_data, map_data
+    from sesame_cad.progress import telling
 
     faults: list[str] = []
     wanted = _wanted(texts, faults)
@@ -77,10 +78,12 @@ def command(
     share = _share(within, faults)
     if faults or bounds is None:
         raise InputError(*faults)
-    if heights is not None:
-        data = map_data(parts, read_heights_mm(heights), wanted["pitch_mm"], bounds, share)
-    else:
-        data = fit_data(parts, wanted, bounds, share, answers)
+    with telling(quiet=as_json) as progress:
+        progress("searching")
+        if heights is not None:
+            data = map_data(parts, read_heights_mm(heights), wanted["pitch_mm"], bounds, share)
+        else:
+            data = fit_data(parts, wanted, bounds, share, answers)
     if as_json:
         click.echo(json.dumps(data, indent=2))
     elif heights is not None:

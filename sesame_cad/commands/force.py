@@ -48,6 +48,7 @@ LISTING = "force.json"
 )
 @click.option("--output", "-o", type=click.Path(path_type=Path), help="Folder for curves.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, and nothing else, to stdout.")
+@click.option("--quiet", "-q", is_flag=True, help="Print nothing; with -o.")
 def command(
     spec: Path,
     gaps: tuple[str, ...],
@@ -59,6 +60,7 @@ def command(
     temperatures: str | None,
     output: Path | None,
     as_json: bool,
+    quiet: bool,
 ) -> None:
     """Press one loop of the array in SPEC between two rigid plates, cold and hot.
 
@@ -70,10 +72,13 @@ def command(
     from sesame_cad.actuation.folder import write_folder
     from sesame_cad.actuation.force import MeasuredTo, check_gap, vice
     from sesame_cad.actuation.summary import print_force
+    from sesame_cad.progress import telling
     from sesame_cad.specification import load_specification
     from solver.errors import NotConvergedError
     from solver.plates import PlateAxis
 
+    if quiet and output is None:
+        raise InputError("--quiet: nothing would come of it; say with -o where to write")
     overrides = {} if poisson is None else {"fabric.poisson": poisson}
     specification = load_specification(spec, overrides)
     gaps_mm = _gaps_mm(gaps, gap_range, points)
@@ -82,7 +87,9 @@ def command(
     for gap_mm in gaps_mm:
         check_gap(specification, gap_mm, held.measured_to)
     try:
-        data, files = _solve(held, gaps_mm, warm_C)
+        with telling(quiet=quiet or as_json) as progress:
+            progress("pressing the loop, cold and hot")
+            data, files = _solve(held, gaps_mm, warm_C)
     except NotConvergedError as error:
         click.echo(f"error: {specification.name}: {error}", err=True)
         raise click.exceptions.Exit(1) from None
@@ -90,7 +97,7 @@ def command(
         data = write_folder(output, LISTING, data, files)
     if as_json:
         click.echo(json.dumps(data, indent=2, ensure_ascii=False))
-    else:
+    elif not quiet:
         print_force(data, output)
 
 

@@ -11,7 +11,8 @@ from sesame_cad.errors import InputError
 
 @click.command("new")
 @click.argument("name")
-def command(name: str) -> None:
+@click.option("--quiet", "-q", is_flag=True, help="Print nothing.")
+def command(name: str, quiet: bool) -> None:
     """Write NAME.toml here: a specification to start from, with every key explained."""
     from sesame_cad.starter import starter_toml
 
@@ -25,4 +26,5 @@ def command(name: str) -> None:
         raise InputError(f"{file}: exists already, and is left as it is") from None
     except OSError as error:
         raise InputError(f"{file}: cannot be written: {error.strerror}") from None
-    click.echo(f"wrote {file}; next: sesame-cad design {file}")
+    if not quiet:
+        click.echo(f"wrote {file}; next: sesame-cad design {file}")

@@ -33,6 +33,7 @@ def command(like: Path, as_json: bool, **quantities: str | None) -> None:
     """
     import json
 
+    from sesame_cad.progress import telling
     from sesame_cad.scaling import Materials, scaled
     from sesame_cad.specification import load_specification
     from solver.errors import NotConvergedError, SceneError
@@ -42,7 +43,9 @@ def command(like: Path, as_json: bool, **quantities: str | None) -> None:
     wire_mm = given.pop("wire.diameter_mm")
     changed = Materials(**{key.replace(".", "_"): value for key, value in given.items()})
     try:
-        found = scaled(specification, wire_mm, changed)
+        with telling(quiet=as_json) as progress:
+            progress("solving the loops")
+            found = scaled(specification, wire_mm, changed)
     except SceneError as error:
         raise InputError(f"{specification.name}: {error}") from None
     except NotConvergedError as error:

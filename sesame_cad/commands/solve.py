@@ -127,6 +127,7 @@ def command(
     from time import perf_counter
 
     from sesame_cad.answer_data import answer_data
+    from sesame_cad.progress import telling
     from sesame_cad.summary import print_answer
     from solver.errors import NotConvergedError, SceneError
     from solver.reading import Reading
@@ -147,9 +148,11 @@ def command(
         )
         scene = _scene(loop, loops, between)
         solve = _solver(scene, fidelity, tolerance, contact)
-        start = perf_counter()
-        answer = solve()
-        seconds = perf_counter() - start
+        with telling(quiet=as_json) as progress:
+            progress("solving")
+            start = perf_counter()
+            answer = solve()
+            seconds = perf_counter() - start
     except SceneError as error:
         raise InputError(str(error)) from None
     except NotConvergedError as error:

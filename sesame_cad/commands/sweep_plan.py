@@ -6,6 +6,7 @@ Each kind of sweep imports its own model, so that one of loops need not wait for
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,14 +18,15 @@ from sesame_cad.sweeps.plan import SweepPlan
 _GRID = re.compile(r"([1-9][0-9]{0,2})\s*[x×]\s*([1-9][0-9]{0,2})")
 
 
-def _axes(ranges: dict[str, str]) -> tuple[Axis, ...]:
+def _axes(ranges: dict[str, str], named: Callable[[str], str]) -> tuple[Axis, ...]:
+    """Read the ranges of keys; all faults at once, each with the option that gave it."""
     axes: list[Axis] = []
     faults: list[str] = []
     for key, text in ranges.items():
         try:
             axes.append(parse_axis(key, text))
         except ValueError as error:
-            faults.append(f"{key}: {error}")
+            faults.append(f"{named(key)}: {error}")
     if faults:
         raise InputError(*faults)
     return tuple(axes)
@@ -51,7 +53,8 @@ def loops_plan(sets: tuple[str, ...], state: str | None, given: dict[str, Any]) 
         raise InputError("--set and --state are keys of a specification: give SPEC")
     from sesame_cad.sweeps.loops import KEYS, LoopModel
 
-    axes = _axes({key: given[key] if given[key] is not None else FIG_2[key] for key in KEYS})
+    ranges = {key: given[key] if given[key] is not None else FIG_2[key] for key in KEYS}
+    axes = _axes(ranges, lambda key: f"--{key.replace('_', '-')}")
     reading = given["reading"] or FIG_2["reading"]
     grid = _GRID.fullmatch((given["loops"] or "1x1").strip())
     if grid is None:
@@ -115,7 +118,8 @@ def designs_plan(path: Path, sets: tuple[str, ...], state: str, given: dict[str,
     specification = load_specification(path)
     mapping = specification.model_dump(mode="json", exclude_none=True)
     coupled = specification.predicted_shape == "coupled"
-    return SweepPlan(DesignModel(mapping, state, coupled), _axes(ranges))
+    axes = _axes(ranges, lambda key: f"--set {key}")
+    return SweepPlan(DesignModel(mapping, state, coupled), axes)
 
 
 def _no_such_key(key: str) -> str:

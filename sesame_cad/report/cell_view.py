@@ -7,14 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sesame_cad.report.fabric_fields import FabricFields, fabric_fields
+from sesame_cad.report.fabric_look import FabricLook, fabric_look
+from sesame_cad.report.heating import austenite_fraction, heating_data
 from sesame_cad.report.packing import packed_reals
-from sesame_cad.report.solved_path import PathState, SolvedPath, solved_path
+from sesame_cad.report.solved_path import SolvedPath, solved_path
 from sesame_cad.specification import Specification
 from sesame_cad.state import CellState
 from solver.edge import EdgeCurve
 from solver.loop_energy import scene_membrane
 from solver.mesh.fabric_law import StVenantKirchhoff
+from solver.mesh.fields import strained_fields
+from solver.mesh.triangle_energy import green_lagrange
 from solver.shape import LoopShape
 
 Data = dict[str, Any]
@@ -37,7 +40,7 @@ def cell_view(spec: Specification, cold: CellState, hot: CellState) -> Data:
     radius, angle = _grid()
     shapes = [state.shape for state in path.states]
     scale = cold.radius_mm
-    fields = [_fields(spec, cold, shape) for shape in shapes]
+    looks = [_look(spec, cold, shape) for shape in shapes]
     places = np.array(cold.cells, dtype=np.float64)[:, ::-1]
     return {
         "kind": "cell",
@@ -46,29 +49,32 @@ def cell_view(spec: Specification, cold: CellState, hot: CellState) -> Data:
         "wireDiameterMm": spec.wire.diameter_mm,
         "places": (places - (places.min(axis=0) + places.max(axis=0)) / 2).tolist(),
         "points": packed_reals(np.stack([scale * s.position(radius, angle) for s in shapes])),
-        "stretch": packed_reals(np.stack([one.stretch_percent for one in fields])),
-        "tension": packed_reals(np.stack([one.tension_N_m for one in fields])),
+        "stretch": packed_reals(np.stack([one.stretch_percent for one in looks])),
+        "tension": packed_reals(np.stack([one.tension_N_m for one in looks])),
         "curvature": packed_reals(
             np.stack([_curvature(s.curve, SEGMENTS) / scale for s in shapes])
         ),
-        "states": _states(path),
+        "heating": heating_data(spec),
+        "states": _states(spec, path),
         "whole": path.whole,
     }
 
 
-def _states(path: SolvedPath) -> list[Data]:
+def _states(spec: Specification, path: SolvedPath) -> list[Data]:
     stops = {0: "flat", path.cold: "cold", len(path.states) - 1: "hot"}
-    return [_state_data(state, stops.get(k)) for k, state in enumerate(path.states)]
-
-
-def _state_data(state: PathState, stop: str | None) -> Data:
-    """What the page says of a state; where temperatures of moduli are known, they belong here."""
-    return {
-        "stop": stop,
-        "heightMm": state.height_mm,
-        "pitchMm": state.pitch_mm,
-        "modulusGPa": state.wire_modulus_GPa,
-    }
+    return [
+        {
+            "stop": stops.get(k),
+            "heightMm": state.height_mm,
+            "pitchMm": state.pitch_mm,
+            "modulusGPa": state.wire_modulus_GPa,
+            # a softer and softer wire on the way to the cold shape is not a cooler one
+            "austenite": austenite_fraction(spec, state.wire_modulus_GPa)
+            if k >= path.cold
+            else None,
+        }
+        for k, state in enumerate(path.states)
+    ]
 
 
 def _grid() -> tuple[Vectors, Vectors]:
@@ -78,13 +84,12 @@ def _grid() -> tuple[Vectors, Vectors]:
     return np.append(0.0, radius), np.append(0.0, angle)
 
 
-def _fields(spec: Specification, state: CellState, shape: LoopShape) -> FabricFields:
+def _look(spec: Specification, state: CellState, shape: LoopShape) -> FabricLook:
     membrane = scene_membrane(state.equilibrium.scene)
     radius, angle = _grid()
     gradient = _gradient(shape, np.maximum(radius, _NEAR_CENTRE), angle)
-    modulus = spec.fabric.modulus_kPa * spec.fabric.thickness_mm  # kPa mm = N/m
-    law = StVenantKirchhoff(membrane.stiffness)
-    return fabric_fields(gradient * membrane.stretch, law, modulus)
+    strain = green_lagrange(gradient * membrane.stretch)
+    return fabric_look(spec, strained_fields(strain, StVenantKirchhoff(membrane.stiffness)))
 
 
 def _gradient(shape: LoopShape, radius: Vectors, angle_rad: Vectors) -> Vectors:

@@ -17,7 +17,8 @@ Data = dict[str, Any]
 
 _WAY = {
     True: "Every shape on the slider's way is solved; between neighbours the page draws straight "
-    "lines. Released, the loop takes the shapes that a softer and softer wire allows.",
+    "lines. Released, the loop takes the shapes that a softer and softer wire allows; "
+    "heated, those of wire that is more and more austenite, at the temperatures below the slider.",
     False: "Flat, cold and hot are known; the shapes between them were not solved.",
 }
 

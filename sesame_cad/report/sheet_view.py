@@ -8,14 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sesame_cad.coupled_state import CoupledState
-from sesame_cad.report.fabric_fields import FabricFields, fabric_fields
+from sesame_cad.report.fabric_look import FabricLook, fabric_look
+from sesame_cad.report.heating import austenite_fraction, heating_data
 from sesame_cad.report.packing import packed_integers, packed_reals
 from sesame_cad.report.recovery import at_vertices
 from sesame_cad.specification import Specification
 from solver.loop_energy import scene_membrane
 from solver.mesh.any_scene import fabric_of
 from solver.mesh.equilibrium import MeshEquilibrium
-from solver.mesh.triangle_energy import TriangleEnergy, triangle_energy
+from solver.mesh.fields import chain_curvature, fabric_fields
 from solver.mesh.triangulation import embedded, prolonged, refined
 from solver.mesh.upright import upright
 
@@ -35,6 +36,7 @@ def sheet_view(spec: Specification, cold: CoupledState, hot: CoupledState) -> Da
     return {
         "kind": "sheet",
         "wireDiametersMm": list(cold.diameters_mm),
+        "heating": heating_data(spec),
         "states": [
             _state(spec, "flat", cold, flat) | {"heightMm": 0.0, "pitchMm": cold.pitch_at_mm(flat)},
             _state(spec, "cold", cold, upright(cold.found.mesh, cold.found.positions)),
@@ -48,8 +50,8 @@ def _state(spec: Specification, stop: str, state: CoupledState, positions: Vecto
     """One shape; positions (n, 3) in units of the largest loop's radius, of the solved mesh."""
     found, unit = state.found, state.radius_mm
     mesh = found.mesh
-    fields = _fields(spec, found, positions)
-    drawn, columns = mesh, [positions, fields.stretch_percent[:, None], fields.tension_N_m[:, None]]
+    look = _look(spec, found, positions)
+    drawn, columns = mesh, [positions, look.stretch_percent[:, None], look.tension_N_m[:, None]]
     if 4 * len(mesh.triangles) <= MOST_TRIANGLES:
         drawn = refined(mesh)
         columns = [
@@ -59,49 +61,34 @@ def _state(spec: Specification, stop: str, state: CoupledState, positions: Vecto
     points, stretch, tension = columns
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     wires = [wire.vertices for wire in drawn.wires]
-    modulus = spec.wire.modulus_hot_GPa if state.name == "hot" else spec.wire.modulus_cold_GPa
+    moduli = {"cold": spec.wire.modulus_cold_GPa, "hot": spec.wire.modulus_hot_GPa}
+    modulus = moduli.get(stop)
     return {
         "stop": stop,
         "heightMm": state.height_mm,
         "pitchMm": state.pitch_mm,
-        "modulusGPa": None if stop == "flat" else modulus,
+        "modulusGPa": modulus,
+        "austenite": None if modulus is None else austenite_fraction(spec, modulus),
         "points": packed_reals(unit * (points - middle)),
         "triangles": packed_integers(drawn.triangles.astype(np.uint32)),
         "stretch": packed_reals(stretch[:, 0]),
         "tension": packed_reals(tension[:, 0]),
         "wires": [packed_integers(wire.astype(np.uint32)) for wire in wires],
-        "curvature": [packed_reals(_curvature(points[wire]) / unit) for wire in wires],
+        "curvature": [
+            packed_reals(chain_curvature(unit * points[wire], closed=True)) for wire in wires
+        ],
     }
 
 
-def _fields(spec: Specification, found: MeshEquilibrium, positions: Vectors) -> FabricFields:
+def _look(spec: Specification, found: MeshEquilibrium, positions: Vectors) -> FabricLook:
     """Stretch and tension at each vertex."""
     mesh, scene = found.mesh, fabric_of(found.scene)
-    membrane = scene_membrane(scene)
-    fabric = triangle_energy(
-        mesh, scene.strain, membrane.stiffness, tension_field=found.tension_field
+    stiffness = scene_membrane(scene).stiffness
+    fields = fabric_fields(
+        mesh, positions, scene.strain, stiffness, tension_field=found.tension_field
     )
-    modulus = spec.fabric.modulus_kPa * spec.fabric.thickness_mm  # kPa mm = N/m
-    of_triangles = fabric_fields(_deformation(fabric, positions), fabric.law, modulus)
-    return FabricFields(
+    of_triangles = fabric_look(spec, fields)
+    return FabricLook(
         at_vertices(mesh, of_triangles.stretch_percent),
         at_vertices(mesh, of_triangles.tension_N_m),
     )
-
-
-def _deformation(fabric: TriangleEnergy, positions: Vectors) -> Vectors:
-    """Derivatives (m, 3, 2) of the position by the coordinates of the unloaded fabric."""
-    corners = positions[fabric.vertices]
-    return np.swapaxes(corners, 1, 2) @ fabric.shape_gradients
-
-
-def _curvature(chain: Vectors) -> Vectors:
-    """Curvature of a closed chain of points (n, 3): twice the sine of the turn over the span.
-
-    That is 1/R of the circle through each point and its neighbours.
-    """
-    before, after = chain - np.roll(chain, 1, axis=0), np.roll(chain, -1, axis=0) - chain
-    area = np.linalg.norm(np.cross(before, after), axis=1)
-    span = np.linalg.norm(before + after, axis=1)
-    lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
-    return 2 * area / (lengths * span)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from difflib import get_close_matches
 from types import MappingProxyType, UnionType
 from typing import Literal, Union, get_args, get_origin
 
@@ -38,6 +39,21 @@ def allowed_text(field: FieldInfo) -> str:
     """Say in full what a key may hold: "a number greater than -1 and less than 0.5"."""
     limits = limits_text(field)
     return f"{kind_text(field)} {limits}" if limits else kind_text(field)
+
+
+def nearest_word(field: FieldInfo, value: object) -> str | None:
+    """Give the allowed word that is most like a wrong one, also of a list; none if none is."""
+    words = [word for word in _words(field.annotation) if isinstance(word, str)]
+    given = value if isinstance(value, (list, tuple)) else [value]
+    wrong = [one for one in given if isinstance(one, str) and one not in words]
+    near = get_close_matches(wrong[0], words, 1) if wrong else []
+    return near[0] if near else None
+
+
+def _words(annotation: object) -> tuple[object, ...]:
+    if get_origin(annotation) is Literal:
+        return get_args(annotation)
+    return tuple(word for part in get_args(annotation) for word in _words(part))
 
 
 def is_number(field: FieldInfo, value: object) -> bool:

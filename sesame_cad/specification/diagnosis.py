@@ -9,7 +9,12 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from sesame_cad.specification.allowed import allowed_text, is_number, limits_text
+from sesame_cad.specification.allowed import (
+    allowed_text,
+    is_number,
+    limits_text,
+    nearest_word,
+)
 from sesame_cad.specification.beam import BeamSection
 from sesame_cad.specification.consistency import Together, inconsistencies
 from sesame_cad.specification.fault import Fault, shown_value
@@ -68,7 +73,11 @@ def _problem(field: FieldInfo, detail: ErrorDetails, value: object) -> str:
         return str(detail.get("ctx", {}).get("error", detail["msg"]))
     if detail["type"] == "finite_number":
         return f"must be a finite number, {limits_text(field)}"
-    return f"must be {limits_text(field) if is_number(field, value) else allowed_text(field)}"
+    near = nearest_word(field, value)
+    meant = "" if near is None else f"; did you mean {near}?"
+    return (
+        f"must be {limits_text(field) if is_number(field, value) else allowed_text(field)}{meant}"
+    )
 
 
 def _unknown(keys: tuple[str, ...]) -> Fault:

@@ -95,4 +95,4 @@ def _with_overrides(
 
 def _lines(faults: Iterable[Fault], source: str, overrides: Mapping[str, object]) -> Iterable[str]:
     for fault in faults:
-        yield f"{'override' if '.'.join(fault.keys) in overrides else source}: {fault}"
+        yield f"{'options' if '.'.join(fault.keys) in overrides else source}: {fault}"

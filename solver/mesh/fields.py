@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.mesh.fabric_law import FabricLaw
 from solver.mesh.plane_tensor import principal
 from solver.mesh.triangle_energy import triangle_energy
 from solver.mesh.triangulation import Mesh
@@ -16,7 +17,7 @@ Vectors = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class FabricFields:
-    """Principal values of each of m triangles.
+    """Principal values of each of m triangles, or at m points.
 
     Attributes
     ----------
@@ -47,10 +48,14 @@ def fabric_fields(
         Whether the fabric wrinkles instead of bearing compression.
     """
     fabric = triangle_energy(mesh, strain, stiffness, tension_field=tension_field)
-    corners = positions[mesh.triangles]
-    # λ = √(1 + 2E) along the principal directions of the Green–Lagrange strain
-    low, high = principal(fabric.strain(corners) * [1.0, 1.0, 0.5])
-    stress_low, stress_high = principal(fabric.stress(corners))
+    return strained_fields(fabric.strain(positions[mesh.triangles]), fabric.law)
+
+
+def strained_fields(strain: Vectors, law: FabricLaw) -> FabricFields:
+    """Read fabric by its Green–Lagrange strain (E₁₁, E₂₂, 2E₁₂), (m, 3), wherever that is known."""
+    # λ = √(1 + 2E) along the principal directions
+    low, high = principal(strain * [1.0, 1.0, 0.5])
+    stress_low, stress_high = principal(law.stress(strain))
     return FabricFields(np.sqrt(1 + 2 * low), np.sqrt(1 + 2 * high), stress_low, stress_high)
 
 

@@ -46,7 +46,7 @@ class TriangleEnergy:
 
     def strain(self, corners: Vectors) -> Vectors:
         """Green–Lagrange strain (E₁₁, E₂₂, 2E₁₂) of each triangle, (m, 3)."""
-        return _green_lagrange(self._deformation(corners))
+        return green_lagrange(self._deformation(corners))
 
     def stress(self, corners: Vectors) -> Vectors:
         """Second Piola–Kirchhoff stress (S₁₁, S₂₂, S₁₂) of each triangle, (m, 3), units of E_f."""
@@ -69,7 +69,7 @@ class TriangleEnergy:
     ) -> tuple[Vectors, Vectors, Vectors]:
         """Energies (m,), gradients (m, 9) and Hessians (m, 9, 9)."""
         deformation = self._deformation(corners)
-        strain = _green_lagrange(deformation)
+        strain = green_lagrange(deformation)
         energies = self.areas * self.law.density(strain)
         slope = self._strain_slope(deformation)
         weighted = self.areas[:, None] * self.law.stress(strain)
@@ -111,8 +111,8 @@ class TriangleEnergy:
             blocks[:, :, component, :, component] += between
 
 
-def _green_lagrange(deformation: Vectors) -> Vectors:
-    """Green–Lagrange strain (E₁₁, E₂₂, 2E₁₂), (m, 3)."""
+def green_lagrange(deformation: Vectors) -> Vectors:
+    """Green–Lagrange strain (E₁₁, E₂₂, 2E₁₂), (m, 3), of deformation gradients (m, 3, 2)."""
     along_1, along_2 = deformation[:, :, 0], deformation[:, :, 1]
     strain = np.empty((len(deformation), 3))
     strain[:, 0] = (np.sum(along_1 * along_1, axis=1) - 1) / 2

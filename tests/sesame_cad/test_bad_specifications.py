@@ -88,7 +88,11 @@ WRONG_VALUES = [
     ("layout", 'shape = "each"', 'must be one of "auto", "cell", "coupled", "none"'),
     ("model", 'fidelity = "scaling"', 'must be one of "auto", "compact", "mesh"'),
     ("model", "refinement = 4", "must be from 0 to 3"),
-    ("model", 'reading = "plane stress"', 'must be one of "plane-stress", "published"'),
+    (
+        "model",
+        'reading = "plane stress"',
+        'must be one of "plane-stress", "published"; did you mean plane-stress?',
+    ),
     (
         "output",
         'formats = ["dst", "hus", "jef"]',
@@ -239,7 +243,7 @@ def test_a_bad_override_is_not_laid_to_the_file(tmp_path, faults_of, key, value,
     faults = faults_of(path, {key: value})
     assert len(faults) == 1
     expected = "good.toml: fabrik: unknown section or key; did you mean [fabric]?"
-    assert faults[0] == (f"override: {fault}" if fault else expected)
+    assert faults[0] == (f"options: {fault}" if fault else expected)
 
 
 def test_a_good_override_that_does_not_go_with_the_file_names_the_key(tmp_path, faults_of):

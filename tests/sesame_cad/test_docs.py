@@ -57,7 +57,7 @@ def test_every_page_is_in_the_menu():
 
 def test_the_site_builds_without_a_warning(tmp_path):
     """Strict: a broken link, a missing picture or an unknown name in the reference is an error."""
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-d", str(tmp_path)]
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "-d", str(tmp_path)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     reference = (tmp_path / "python" / "index.html").read_text(encoding="utf-8")

@@ -13,12 +13,14 @@ import pytest
 
 from patterns.records import Command
 from patterns.violation import Violation
+from sesame_cad.actuation.subject import heated_wire
 from sesame_cad.files.dst import decode_dst
 from sesame_cad.package import write_package
 from sesame_cad.pipeline import design
 from sesame_cad.report.cell_view import cell_view
 from sesame_cad.report.embedding import embedded, read_embedded
-from sesame_cad.report.fabric_fields import fabric_fields
+from sesame_cad.report.fabric_look import fabric_look
+from sesame_cad.report.heating import austenite_fraction
 from sesame_cad.report.packing import packed_integers, packed_reals, unpacked
 from sesame_cad.report.page import report_html
 from sesame_cad.report.phase_diagram import phase_diagram
@@ -30,6 +32,8 @@ from sesame_cad.report_checks import report_faults
 from sesame_cad.specification import load_specification, specification_from
 from sesame_cad.state import solve_state
 from solver.mesh.fabric_law import StVenantKirchhoff
+from solver.mesh.fields import strained_fields
+from solver.mesh.triangle_energy import green_lagrange
 from solver.reading import Reading
 from solver.threshold import critical_beta, line_tension
 
@@ -101,18 +105,22 @@ def test_packed_numbers_come_back():
     assert np.array_equal(unpacked(packed_reals(np.zeros(3))), np.zeros(3))
 
 
-def test_the_fields_of_flat_fabric_are_known():
+def look(spec, deformation, law):
+    return fabric_look(spec, strained_fields(green_lagrange(deformation), law))
+
+
+def test_the_fields_of_flat_fabric_are_known(spec):
     strain, poisson = 0.3, 0.45
-    law = StVenantKirchhoff(plane_stress(poisson))
     flat = (1 + strain) * np.eye(3)[None, :, :2]
-    fields = fabric_fields(flat, law, 189.0)
+    fields = look(spec, flat, StVenantKirchhoff(plane_stress(poisson)))
     assert fields.stretch_percent == pytest.approx(30)
+    sheet_modulus_N_m = spec.fabric.modulus_kPa * spec.fabric.thickness_mm
     assert fields.tension_N_m == pytest.approx(
-        189 * line_tension(strain, poisson, Reading.PLANE_STRESS)
+        sheet_modulus_N_m * line_tension(strain, poisson, Reading.PLANE_STRESS)
     )
 
 
-def test_tension_is_the_force_that_does_the_work():
+def test_tension_is_the_force_that_does_the_work(spec):
     """A strip: what its energy gains by a little more length is its force times that."""
     law = StVenantKirchhoff(plane_stress(0.3))
     long, wide, step = 1.4, 1.1, 1e-6
@@ -122,8 +130,9 @@ def test_tension_is_the_force_that_does_the_work():
         return law.density(strain)[0]
 
     force = (energy(long + step) - energy(long - step)) / (2 * step)
+    force *= spec.fabric.modulus_kPa * spec.fabric.thickness_mm
     stretched = np.array([[[long, 0], [0, wide], [0, 0]]])
-    assert fabric_fields(stretched, law, 1.0).tension_N_m == pytest.approx(force / wide, rel=1e-8)
+    assert look(spec, stretched, law).tension_N_m == pytest.approx(force / wide, rel=1e-8)
 
 
 def plane_stress(poisson):
@@ -148,6 +157,21 @@ def test_the_way_leads_through_the_shapes_of_the_design(view, states):
     for part in (heights[1 : cold + 1], heights[cold:]):
         steps = np.abs(np.diff(part))
         assert steps.max() < 1.2 * steps.min()
+
+
+def test_the_way_from_cold_to_hot_is_that_of_heated_wire(spec, view):
+    wire = heated_wire(spec)
+    ends = view["heating"]
+    assert (ends["startC"], ends["finishC"]) == wire.transformation.temperatures_C[:2]
+    cold = [state["stop"] for state in view["states"]].index("cold")
+    shares = [state["austenite"] for state in view["states"]]
+    assert set(shares[:cold]) == {None}
+    assert (shares[cold], shares[-1]) == (0, 1)
+    for state, share in zip(view["states"][cold:], shares[cold:], strict=True):
+        assert wire.modulus_Pa(share) == pytest.approx(1e9 * state["modulusGPa"])
+    cold_GPa = spec.wire.modulus_cold_GPa
+    alike = spec.wire.model_copy(update={"modulus_hot_GPa": cold_GPa})
+    assert austenite_fraction(spec.model_copy(update={"wire": alike}), cold_GPa) is None
 
 
 def test_straight_lines_between_neighbours_are_near_the_solved_shapes(spec, states):
@@ -286,6 +310,15 @@ def test_links_lead_to_files_beside_the_page_and_nowhere_else(stitched):
         assert (target / link).is_file()
 
 
+def test_every_file_of_a_package_is_linked_and_explained(large_array):
+    text = (large_array / "report.html").read_text()
+    listed = dict(re.findall(r'<li><a href="([^"]+)">[^<]*</a> <span>([^<]*)</span>', text))
+    on_disk = {file.relative_to(large_array).as_posix() for file in large_array.rglob("*.*")}
+    assert set(listed) == on_disk - {"report.html"}
+    assert all(listed.values())
+    assert {Path(link).suffix for link in listed} >= {".stl", ".3mf", ".glb", ".vtu"}
+
+
 def test_a_name_cannot_break_out_of_the_page(stitched):
     made, _, data, records = stitched
     evil = "</script><script>alert(1)</script><b>"
@@ -389,6 +422,30 @@ def test_the_slider_ends_at_the_heights_of_the_design(opened, large_array):
     assert not page.locator("#viewer").evaluate("v => v.classList.contains('blind')")
 
 
+def test_the_slider_has_the_temperatures_of_the_heated_wire(opened, large_array, spec):
+    law = heated_wire(spec).transformation
+    page = opened(large_array / "report.html")
+    slider, told = page.locator("[name=place]"), page.locator("[data-say=temperature]")
+    start, finish = law.temperatures_C[:2]
+    assert told.inner_text() == f"up to {start:.1f} °C"
+    slider.press("End")
+    assert told.inner_text() == f"{finish:.1f} °C or more"
+    fraction = page.evaluate("""() => {
+      const viewer = sesameReport.viewer;
+      viewer.place(viewer.stop('cold') + 2.5);
+      return viewer.shapes.numbers(viewer.s).austenite;
+    }""")
+    assert 0.1 < fraction < 0.9
+    assert told.inner_text() == f"{law.heated_to(fraction):.1f} °C"
+    marks = page.locator(".degrees span")
+    assert marks.all_inner_texts() == ["40 °C", "42.5 °C", "45 °C", "47.5 °C", "50 °C"]
+    for k, mark in enumerate(marks.all()):
+        share = float(mark.evaluate("m => parseFloat(m.style.left)")) / 100
+        page.evaluate("s => sesameReport.viewer.place(s * sesameReport.viewer.slider.max)", share)
+        if 0 < k < 4:
+            assert told.inner_text() == f"{start + k / 4 * (finish - start):.1f} °C"
+
+
 def test_something_is_drawn_in_space(opened, large_array):
     page = opened(large_array / "report.html")
     page.evaluate("sesameReport.viewer.rest()")
@@ -433,6 +490,35 @@ def test_the_player_ends_at_the_last_record(opened, stitched):
     stitches = data["stitch"]["stitches"]
     assert say["stitch"].inner_text() == f"stitch {stitches} of {stitches}"
     assert page.locator("[name=record]").input_value() == str(count)
+
+
+def test_stitches_move_with_the_view_and_are_drawn_anew(opened, stitched):
+    """Shifted at once, and the same when the view has settled."""
+    _, target, _, _ = stitched
+    page = opened(target / "report.html")
+    shift_px = 24
+    same = """async (shift) => {
+      const { player } = sesameReport, { picture } = player, { canvas } = picture;
+      const pixels = (left) => canvas.getContext('2d')
+        .getImageData(left, 0, canvas.width - shift, canvas.height).data;
+      const differing = (one, other) => one.filter((v, i) => Math.abs(v - other[i]) > 8).length;
+      player.draw(true);
+      const before = pixels(0);
+      picture.pan(shift, 0);
+      player.draw();
+      const moving = [picture.stale, differing(before, pixels(shift))];
+      picture.zoomBy(2);
+      player.draw();
+      const nearer = differing(before, pixels(shift));
+      picture.zoomBy(0.5);
+      player.draw();
+      while (picture.stale) await new Promise((next) => setTimeout(next, 10));
+      return [...moving, nearer, differing(before, pixels(shift))];
+    }"""
+    stale, moving, nearer, settled = page.evaluate(same, shift_px)
+    assert (stale, moving) == (True, 0)
+    # soft edges come out a little different in another place
+    assert settled < 0.02 * nearer
 
 
 def test_clicks_measure_between_needle_points(opened, stitched):

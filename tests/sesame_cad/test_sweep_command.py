@@ -118,10 +118,10 @@ def test_an_array_that_cannot_be_solved_says_so(monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
-        (["--beta", "0.1:0.2"], "beta: '0.1:0.2' is no range"),
-        (["--beta", "0.1:0.2:x"], "beta: count 'x'"),
-        (["--beta", "0.1:0.2:1"], "beta: count '1'"),
-        (["--beta", "0.1,0.1"], "beta: '0.1,0.1' holds a value twice"),
+        (["--beta", "0.1:0.2"], "--beta: '0.1:0.2' is no range"),
+        (["--beta", "0.1:0.2:x"], "--beta: count 'x'"),
+        (["--beta", "0.1:0.2:1"], "--beta: count '1'"),
+        (["--beta", "0.1,0.1"], "--beta: '0.1,0.1' holds a value twice"),
         (["--beta", "0:0.2:3"], "beta = 0"),
         (["--strain", "0:3:4"], "strain = 3"),
         (["--strain", "0:1:2000", "--beta", "0.1:1:2000"], "4000000 points"),
@@ -143,7 +143,7 @@ def test_bad_ranges(arguments, named, faults_of_command, tmp_path):
         (["--set", "wire.diametre_mm=1:2:3"], "--set wire.diametre_mm: no key"),
         (["--set", "layout.kind=1"], "--set layout.kind: no key"),
         (["--set", "wire.diameter_mm"], "--set 'wire.diameter_mm': write KEY=RANGE"),
-        (["--set", "wire.diameter_mm=1kg"], "wire.diameter_mm: '1kg' is not a length"),
+        (["--set", "wire.diameter_mm=1kg"], "--set wire.diameter_mm: '1kg' is not a length"),
         (["--set", "fabric.prestrain=1:3:3"], "fabric.prestrain = 3: fabric.prestrain = 3"),
         (["--beta", "0.1", "--set", "fabric.prestrain=0.3"], "--beta: not with SPEC"),
     ],

@@ -9,6 +9,7 @@ SCRIPTS = (
     "dragging",
     "geometry",
     "shapes",
+    "heating",
     "painter",
     "viewer",
     "records",

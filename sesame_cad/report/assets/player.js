@@ -47,7 +47,7 @@ class Player {
       this.soon();
     }, (event) => this.measure([event.offsetX, event.offsetY]));
     new ResizeObserver(() => this.soon()).observe(canvas);
-    window.addEventListener('beforeprint', () => this.draw());
+    window.addEventListener('beforeprint', () => this.draw(true));
   }
 
   key(event) {
@@ -168,8 +168,10 @@ class Player {
     });
   }
 
-  draw() {
-    this.picture.draw(this.done, (context) => this.over(context));
+  draw(atOnce = false) {
+    const whole = this.picture.draw(this.done, (context) => this.over(context), atOnce);
+    clearTimeout(this.settling);
+    if (!whole) this.settling = setTimeout(() => this.soon(), SETTLE_MS);
   }
 
   over(context) {

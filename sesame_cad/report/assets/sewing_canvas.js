@@ -2,6 +2,7 @@
 // newest stitches are added; copies of it on the way make going back quick.
 
 const COPIES = 16;
+const SETTLE_MS = 120; // after so long without motion the picture is drawn anew
 const FABRIC = '#E6DFD2', INK = '#33312C', OUTLINE = '#B0A894', TRAVEL = '#A79F8F';
 const THREAD_MM = 0.4;
 
@@ -25,9 +26,17 @@ class SewingCanvas {
     this.clear();
   }
 
+  // What is drawn belongs to another view; while that moves, it is shown shifted and scaled.
   clear() {
+    this.stale = true;
+    this.moved = performance.now();
+  }
+
+  renew() {
+    this.stale = false;
     this.drawn = -1;
     this.copies = [];
+    this.seen = { middle: this.middle, scale: this.scale };
   }
 
   pan(dx, dy) {
@@ -53,7 +62,8 @@ class SewingCanvas {
     const [columns, rows] = [Math.round(width * ratio), Math.round(height * ratio)];
     if (this.sewn.width !== columns || this.sewn.height !== rows) {
       for (const one of [this.sewn, this.canvas]) [one.width, one.height] = [columns, rows];
-      this.clear();
+      this.stale = true;
+      this.drawn = -1;
     }
     this.ratio = ratio;
   }
@@ -66,15 +76,29 @@ class SewingCanvas {
     return [this.width / 2 + (x - this.middle[0]) * this.scale, this.height / 2 - (y - this.middle[1]) * this.scale];
   }
 
-  draw(done, over) {
+  // Gives whether all is as it should be; else it is to be drawn again when the view has settled.
+  draw(done, over, atOnce) {
     this.measure();
-    if (!this.width || !this.height) return;
-    this.sew(done);
+    if (!this.width || !this.height) return true;
+    const settled = atOnce || this.drawn < 0 || performance.now() - this.moved >= SETTLE_MS;
+    if (this.stale && settled) this.renew();
+    if (!this.stale) this.sew(done);
     const context = this.canvas.getContext('2d');
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.drawImage(this.sewn, 0, 0);
+    if (this.stale) this.shift(context);
+    else context.drawImage(this.sewn, 0, 0);
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     over(context);
+    return !this.stale;
+  }
+
+  shift(context) {
+    const factor = this.scale / this.seen.scale, [x, y] = this.onPage(...this.seen.middle);
+    const [left, top] = [x - (factor * this.width) / 2, y - (factor * this.height) / 2];
+    context.fillStyle = FABRIC;
+    context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    const size = [factor * this.sewn.width, factor * this.sewn.height];
+    context.drawImage(this.sewn, this.ratio * left, this.ratio * top, ...size);
   }
 
   // Brings the picture of what is sewn to a number of records.

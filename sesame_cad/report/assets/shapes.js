@@ -67,7 +67,7 @@ class CellShapes {
       one[key] === null || other[key] === null
         ? (share === 1 ? other[key] : share === 0 ? one[key] : null)
         : (1 - share) * one[key] + share * other[key];
-    return { heightMm: mix('heightMm'), pitchMm: mix('pitchMm'), modulusGPa: mix('modulusGPa') };
+    return Object.fromEntries(['heightMm', 'pitchMm', 'modulusGPa', 'austenite'].map((key) => [key, mix(key)]));
   }
 
   at(s, quantity, detail) {

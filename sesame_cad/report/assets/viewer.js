@@ -21,6 +21,8 @@ class Viewer {
     [this.coarse, this.finest] = MOST_TRIANGLES[this.slowly ? 'slow' : 'quick'].map((most) => this.within(most));
     this.slider.max = this.shapes.states.length - 1;
     this.slider.step = this.shapes.step;
+    this.heating = view.heating;
+    this.root.querySelector('.degrees').innerHTML = degrees(this.shapes.states, view.heating);
     this.home();
     this.listen();
     this.place(this.stop('cold'));
@@ -162,7 +164,7 @@ class Viewer {
   }
 
   tell() {
-    const { heightMm, pitchMm, modulusGPa } = this.shapes.numbers(this.s);
+    const { heightMm, pitchMm, modulusGPa, austenite } = this.shapes.numbers(this.s);
     const state = this.shapes.states[this.s];
     const say = (name, text) => (this.root.querySelector(`[data-say=${name}]`).textContent = text);
     say('height', `${heightMm.toFixed(2)} mm`);
@@ -171,7 +173,9 @@ class Viewer {
     const stiff = modulusGPa === null ? '' : `, wire of ${modulusGPa.toFixed(1)} GPa`;
     say('state', { flat: 'flat, as it is sewn', cold: 'cold', hot: 'hot' }[where] || where);
     say('modulus', modulusGPa === null ? 'held flat by the hoop' : `${modulusGPa.toFixed(1)} GPa`);
-    this.slider.setAttribute('aria-valuetext', `${where}${stiff}, ${heightMm.toFixed(2)} mm high`);
+    const warm = temperature(where, austenite, this.heating);
+    say('temperature', warm);
+    this.slider.setAttribute('aria-valuetext', `${where}, ${warm}${stiff}, ${heightMm.toFixed(2)} mm high`);
     for (const button of this.root.querySelectorAll('[data-stop]')) {
       button.setAttribute('aria-pressed', String(button.dataset.stop === where));
     }
