@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -117,18 +119,20 @@ def solve_array(
         _check_start(problem, start)
         solved = descend(problem, last, start, backend, most_steps)
     elif _tiles(scene):
-        # from the mesh before the last on, which tells how far the last may err
-        first = max(0, last - 1)
         loop = solve_loop_mesh(
             scene.loop,
-            refinement=first,
+            refinement=refinement,
             segments=segments,
             backend=backend,
             tension_field=tension_field,
         )
         tile = aligned_saddle(loop.mesh, loop.positions)
-        tiles = tiled_start(problem.meshes[first], loop.mesh, tile)
-        solved = descend(problem, first, tiles, backend, most_steps)
+        tiles = tiled_start(problem.meshes[-1], loop.mesh, tile)
+        solved = descend(problem, last, tiles, backend, most_steps)
+        tiled = account(scene, problem, solved, lenient=allow_unreliable)
+        # tiles that lie level are as high as one of them, on a coarser mesh too
+        coarser = np.full_like(tiled.loop_heights, loop.coarser_height)
+        return replace(tiled, coarser_height=loop.coarser_height, coarser_loop_heights=coarser)
     else:
         first = _COARSEST_ARRAY
         flat = array_start(problem.meshes[first])

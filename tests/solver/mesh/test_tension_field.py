@@ -147,7 +147,10 @@ def test_taut_loops_are_as_without_it():
         solve_loop_mesh(LOOP, refinement=2, tension_field=field) for field in (False, True)
     )
     assert relaxed.energy == pytest.approx(plain.energy, rel=1e-8)
-    assert relaxed.height == pytest.approx(plain.height, rel=1e-6)
+    # the fabric turns under its saddle at next to no cost, which moves the height a little
+    assert relaxed.height == pytest.approx(plain.height, rel=1e-4)
+    stays = solve_loop_mesh(LOOP, refinement=2, tension_field=True, start=plain.positions)
+    assert stays.height == pytest.approx(plain.height, rel=1e-9)
     assert relaxed.compressed_fraction == 0
     assert "fabric stretch (tension field)" in relaxed.energy_terms
 
