@@ -105,9 +105,15 @@ def smallest_wire_gap(shape: LoopShape) -> float:
     if shape.width <= 0:
         return shape.width
     edge = shape.edge(EDGE_POINTS)
+    return float(cdist(edge, edge)[_across()].min())
+
+
+@lru_cache(maxsize=1)
+def _across() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Pairs of points of the wire that lie a quarter to half a turn apart."""
     apart = np.arange(EDGE_POINTS // 4, EDGE_POINTS // 2 + 1)
-    other = edge[(np.arange(EDGE_POINTS)[:, None] + apart) % EDGE_POINTS]
-    return float(np.linalg.norm(edge[:, None] - other, axis=2).min())
+    start, ahead = np.meshgrid(np.arange(EDGE_POINTS), apart, indexing="ij")
+    return start.ravel(), ((start + ahead) % EDGE_POINTS).ravel()
 
 
 @lru_cache(maxsize=16)
