@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from patterns.circuit import Circuit
 from patterns.records import Command, Records
-from patterns.rules.catalogue import CATALOGUE
 from patterns.violation import Violation
 from sesame_cad.drawing_colours import stage_colour
 from sesame_cad.pipeline import Design
@@ -62,7 +61,6 @@ def stitch_view(design: Design, records: Records, violations: Sequence[Violation
         ],
         "rings": [packed_reals(ring) for ring in laid.outline.rings],
         "hoopMm": [spec.machine.hoop_width_mm, spec.machine.hoop_height_mm],
-        "rules": len(CATALOGUE),
         "violations": [
             {"rule": one.rule, "text": str(one), "xMm": one.x_mm, "yMm": one.y_mm}
             for one in violations
