@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from html import escape
 from string import Template
 from typing import Any
 
@@ -12,7 +11,7 @@ from matplotlib import colormaps
 from patterns.records import Records
 from patterns.violation import Violation
 from sesame_cad.pipeline import Design
-from sesame_cad.report.assets import asset, script
+from sesame_cad.report.assets import asset, page, script
 from sesame_cad.report.circuit_drawing import circuit_drawing
 from sesame_cad.report.cut_drawing import cut_drawing
 from sesame_cad.report.embedding import embedded
@@ -52,9 +51,9 @@ def report_html(
     laid = design.pattern
     shape, stitches = shape_view(design), stitch_view(design, records, violations)
     diameters = laid.circuit.of_stages(design.spec.diameters_mm)
-    return Template(asset("page.html")).substitute(
-        title=escape(data["name"]),
-        style=asset("style.css"),
+    return page(
+        "page",
+        data["name"],
         warnings=warnings_section(data),
         shape=shape_section(shape, Template(asset("viewer.html"))),
         rules=rules_section(stitches),

@@ -5,12 +5,11 @@ from __future__ import annotations
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping
 from html import escape
-from string import Template
 from typing import Any
 
 from patterns.records import Records
 from sesame_cad.files.cut_line import cut_line
-from sesame_cad.report.assets import asset, script
+from sesame_cad.report.assets import page, script
 from sesame_cad.report.circuit_drawing import circuit_drawing
 from sesame_cad.report.cut_drawing import cut_drawing
 from sesame_cad.report.embedding import embedded
@@ -45,9 +44,9 @@ def sleeve_report_html(
         Words for each picture of the states, and the picture, a PNG.
     """
     views = {name: stitch_view(one, records[name], ()) for name, one in design.hoopings.items()}
-    return Template(asset("sleeves.html")).substitute(
-        title=escape(data["name"]),
-        style=asset("style.css"),
+    return page(
+        "sleeves",
+        data["name"],
         warnings=warnings_list(sleeve_warnings(data)),
         states="".join(_picture(*one) for one in pictures) or _NO_STATES,
         stitches="".join(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from html import escape
 from importlib.resources import files
+from string import Template
 
 SCRIPTS = (
     "packing",
@@ -23,6 +25,12 @@ SCRIPTS = (
 def asset(name: str) -> str:
     """Read a file."""
     return (files(__name__) / name).read_text(encoding="utf-8")
+
+
+def page(name: str, title: str, **parts: object) -> str:
+    """Fill a page's template, behind the head that all pages have."""
+    whole = Template(asset("head.html") + asset(f"{name}.html"))
+    return whole.substitute(parts, title=escape(title), style=asset("style.css"))
 
 
 def script() -> str:
