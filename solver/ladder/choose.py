@@ -20,7 +20,6 @@ from solver.ladder.fidelity import Fidelity
 from solver.ladder.law import by_law, law_error
 from solver.ladder.meshed import TWIST_ADDED, by_mesh
 from solver.mesh.any_scene import MeshScene
-from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene, Contact
 from solver.mesh.sheet import SheetScene
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
@@ -176,7 +175,7 @@ def _by_compact(scene: LoopScene, reason: str, tolerance: float, *, lenient: boo
 def _tiles(scene: ArrayScene) -> bool:
     """Whether one loop is all there is to solve: equal loops, gaps cut, wires side by side."""
     return (
-        scene.between is Between.CUT
+        not scene.gaps_kept
         and scene.contact is Contact.BONDED
         and len(set(scene.stiffness)) == 1
         and scene.loop.isotropic_circle
@@ -190,9 +189,17 @@ def _solve_array(
         return _solve_loop(scene.loop, fidelity, tolerance, mesh, lenient=lenient)
     if fidelity is not Fidelity.MESH and _tiles(scene):
         wire = scene.stiffness[0]
-        loop = replace(scene.loop, beta=wire.beta, axial_stiffness=wire.axial_stiffness)
+        loop = replace(
+            scene.loop,
+            beta=wire.beta,
+            axial_stiffness=wire.axial_stiffness,
+            natural_curvature=wire.natural_curvature,
+            twist_ratio=wire.twist_ratio,
+        )
         one = _solve_loop(loop, fidelity, tolerance, mesh, lenient=lenient)
-        return replace(one, reason=f"equal loops with cut gaps tile: one is solved; {one.reason}")
+        return replace(
+            one, reason=f"equal loops without fabric between them tile: one is solved; {one.reason}"
+        )
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
         raise SceneError(f"these loops do not tile; {fidelity} solves one loop, mesh solves arrays")
     if fidelity is Fidelity.MESH:

@@ -18,8 +18,9 @@ from solver.ladder.contact import (
     finest_in_contact,
     refuse_what_meets_itself,
 )
+from solver.ladder.edges import MOST_TRIANGLES, edges_of_a_loop
 from solver.mesh.any_scene import MeshScene, fabric_of, size_of, twisted
-from solver.mesh.array_mesh import Between
+from solver.mesh.drawing import SEGMENTS
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.omissions import lacks_twist, mesh_omissions, wrinkles_escape
 from solver.mesh.scene import ArrayScene
@@ -31,8 +32,6 @@ FINEST_LOOP = 5
 FINEST_ARRAY = 3
 FINEST_SLACK_LOOP, FINEST_SLACK_ARRAY = 4, 3
 """Finer meshes of wrinkled fabric take hundreds of steps; what they would change is told."""
-MOST_TRIANGLES = 25_000
-"""Of the finest mesh, if coarser ones do not have more already."""
 TWIST_ADDED = "the wire's twist was added, for the shape without it has writhe"
 
 _COARSEST_LOOP, _COARSEST_ARRAY = 2, 1
@@ -70,7 +69,7 @@ def by_mesh(
     """
     refinements = _refinements(scene, refinement)
     if contact is ContactChoice.AUTO and not lenient:
-        alone = partial(_solved, field=False, lenient=True)
+        alone = partial(_solved, segments=SEGMENTS, field=False, lenient=True)
         refuse_what_meets_itself(scene, refinements[0], alone)
     found = _refined(
         scene, tolerance, refinements, told, contact, lenient=lenient, add_twist=add_twist
@@ -104,9 +103,11 @@ def _refined(
     contact = InContact(scene, choice)
     refinement = refinements[0]
     field = _slack_for_sure(scene)
+    # one mesh asked for by its refinement is that of loops as they are elsewhere
+    segments = edges_of_a_loop(scene) if len(refinements) > 1 else SEGMENTS
     while True:
         told(f"mesh refined {refinement} times")
-        found = _solved(scene, refinement, field=field, lenient=lenient)
+        found = _solved(scene, refinement, segments=segments, field=field, lenient=lenient)
         field = found.tension_field
         found = contact.solved(found, refinement, lenient=lenient)
         # where a shape passes through itself its writhe jumps and tells nothing
@@ -141,22 +142,30 @@ def _slack_for_sure(scene: MeshScene) -> bool:
         return False
     fabric = scene.loop
     plain = fabric.modulus_ratio == 1 and fabric.alpha == 0 and fabric.strain > 0
-    return plain and scene.between is Between.KEPT
+    return plain and scene.gaps_kept
 
 
-def _solved(scene: MeshScene, refinement: int, *, field: bool, lenient: bool) -> MeshEquilibrium:
+def _solved(
+    scene: MeshScene, refinement: int, *, segments: int, field: bool, lenient: bool
+) -> MeshEquilibrium:
     loop = fabric_of(scene)
     knows_field = loop.modulus_ratio == 1
     if not field:
         # a plain solve that fails may be one that wrinkles: the tension field has its turn
         found = solve_on_mesh(
-            scene, refinement, tension_field=False, allow_unreliable=lenient or knows_field
+            scene,
+            refinement,
+            segments=segments,
+            tension_field=False,
+            allow_unreliable=lenient or knows_field,
         )
         slack = loop.strain > 0 and wrinkles_escape(found)
         if not (knows_field and (slack or found.status != "converged")):
             return found
     # and so may one be that meets itself: contact has its turn
-    return solve_on_mesh(scene, refinement, tension_field=True, allow_unreliable=True)
+    return solve_on_mesh(
+        scene, refinement, segments=segments, tension_field=True, allow_unreliable=True
+    )
 
 
 def _finest(

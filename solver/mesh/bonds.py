@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +33,16 @@ class BondEnergy:
     vertices: Indices
     stiffness: Vectors
     tangents: Vectors = field(default_factory=lambda: _BETWEEN_ENDS)
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
+        shape = (len(self.vertices), *self.tangents.shape[1:])
+        return replace(
+            self,
+            vertices=self.vertices[rows],
+            stiffness=self.stiffness[rows],
+            tangents=np.broadcast_to(self.tangents, shape)[rows],
+        )
 
     def energies(self, corners: Vectors) -> Vectors:
         """Energy (m,) of each bond."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum, auto
-from typing import Protocol, runtime_checkable
+from typing import Protocol, Self, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,10 @@ class Elements(Protocol):
     @property
     def vertices(self) -> Indices:
         """Vertices (m, a) of each element, all different."""
+        ...
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
         ...
 
     def energies(self, corners: Vectors) -> Vectors:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay, QhullError, cKDTree
 
 from solver.errors import SceneError
@@ -18,14 +20,20 @@ SMALLEST_ANGLE = 1.0
 """Degrees; the cusps between equal loops that touch have 18, and half with each refinement."""
 
 MOST_SPOKES = 24
-_SMALLEST_FAN_ANGLE = 4.0
-"""Degrees; the fan in the gap between four equal loops has 4.05."""
+_SMALLEST_FAN_ANGLE = 10.0
+"""Degrees; thinner spokes stiffen what they fill: in the gap between four equal loops, of 4."""
 _CLEARANCE = 0.6
 """Distance of inner vertices from those of the edge, over the spacing.
 
 More than half of it keeps them out of the circles over the edges, so that Delaunay's triangulation
 has those edges.
 """
+
+_DIGITS = 9
+_NO_ANGLE = 1e-3
+"""Degrees; such triangles are of three points on a straight edge."""
+_ON_ONE_CIRCLE = 1e-6
+"""Radians by which opposite angles of a quadrilateral on a circle may miss π."""
 
 
 @dataclass(frozen=True)
@@ -89,13 +97,14 @@ def _sharpest(points: Vectors, filling: Filling) -> float:
 
 def _inner_points(points: Vectors, face: Face, spacing: float) -> Vectors:
     """Points of a triangular grid that are well inside a face."""
-    rim = points[face.edges]
-    low, high = points[face.outline].min(axis=0), points[face.outline].max(axis=0)
-    rows = np.arange(low[1], high[1], spacing * np.sqrt(3) / 2)
-    columns = np.arange(low[0], high[0] + spacing, spacing)
-    x, y = np.meshgrid(columns, rows)
-    x[1::2] += spacing / 2
-    grid = np.stack([x.ravel(), y.ravel()], axis=1)
+    rim, corners = points[face.edges], points[face.outline]
+    # about the middle, so that the grid is as symmetric as the face
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    step = spacing * np.array([1.0, np.sqrt(3) / 2])
+    across, up = (int(n) + 1 for n in (high - low) / 2 / step)
+    row, place = np.mgrid[-up : up + 1, -across - 1 : across + 1]
+    place = place + np.where(row % 2, 0.5, 0.0)
+    grid = (low + high) / 2 + step * np.stack([place.ravel(), row.ravel()], axis=1)
     grid = grid[contains(points, face.edges, grid)]
     near = cKDTree(np.concatenate([rim[:, 0], rim.mean(axis=1)])).query(grid)[0]
     return grid[near > _CLEARANCE * spacing]
@@ -113,23 +122,70 @@ def _delaunay(points: Vectors, face: Face, spacing: float) -> Filling:
     rim = np.unique(edges)
     inner = _inner_points(points, face, spacing)
     number = np.concatenate([rim, len(points) + np.arange(len(inner))])
-    local = np.concatenate([points[rim], inner])
     try:
-        found = number[Delaunay(local).simplices]
+        found = number[_triangulated(np.concatenate([points[rim], inner]))]
     except QhullError:
         raise SceneError(f"the region near {_place(points, face)} has no area") from None
     everything = np.concatenate([points, inner])
-    triangles = found[contains(points, edges, everything[found].mean(axis=1))]
-    clockwise = smallest_angles(everything, triangles) < 0
-    triangles[clockwise] = triangles[clockwise][:, ::-1]
-    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    filling = Filling(inner, found[contains(points, edges, everything[found].mean(axis=1))])
+    sides = np.sort(_sides(filling.triangles).reshape(-1, 2), axis=1)
     known = {tuple(side) for side in sides.tolist()}
     if not {tuple(edge) for edge in np.sort(edges, axis=1).tolist()} <= known:
         raise SceneError(
             f"the region near {_place(points, face)} is too narrow for the edges round it: "
             "divide the loops into more segments"
         )
-    return Filling(inner, triangles)
+    return _evened(points, filling)
+
+
+def _triangulated(points: Vectors) -> Indices:
+    """Delaunay's triangles (m, 3) of points (n, 2), counterclockwise, none without area."""
+    # in an order, and with digits, that do not depend on where the points lie
+    local = np.round(points - points.mean(axis=0), _DIGITS)
+    order = np.lexsort(local.T)
+    found = order[Delaunay(local[order]).simplices].astype(np.int64)
+    clockwise = smallest_angles(points, found) < 0
+    found[clockwise] = found[clockwise][:, ::-1]
+    return found[smallest_angles(points, found) > _NO_ANGLE]
+
+
+def _sides(triangles: Indices) -> Indices:
+    """Sides (m, 3, 2) of triangles, each opposite the corner of its number."""
+    return triangles[:, [[1, 2], [2, 0], [0, 1]]]
+
+
+def _evened(points: Vectors, filling: Filling) -> Filling:
+    """Fill polygons whose corners lie on one circle with fans about their middles.
+
+    Delaunay's criterion leaves the diagonals of such a polygon open, and either choice would break
+    the symmetry of the region.
+    """
+    everything = np.concatenate([points, filling.points])
+    triangles = filling.triangles
+    corners = everything[triangles]
+    ahead, back = (np.roll(corners, -s, axis=1) - corners for s in (1, 2))
+    cross = ahead[..., 0] * back[..., 1] - ahead[..., 1] * back[..., 0]
+    angles = np.arctan2(cross, np.sum(ahead * back, axis=2)).ravel()
+    sides = np.sort(_sides(triangles).reshape(-1, 2), axis=1)
+    order = np.lexsort(sides.T)
+    one, other = order[:-1], order[1:]
+    shared = (sides[one] == sides[other]).all(axis=1)
+    open_sides = shared & (np.abs(angles[one] + angles[other] - np.pi) < _ON_ONE_CIRCLE)
+    pairs = one[open_sides] // 3, other[open_sides] // 3
+    count = len(triangles)
+    links = coo_array((np.ones(len(pairs[0])), pairs), shape=(count, count))
+    polygon = connected_components(links, directed=False)[1]
+    single = np.bincount(polygon)[polygon] == 1
+    out, middles = [triangles[single]], [filling.points]
+    for number in np.unique(polygon[~single]):
+        within = np.sort(_sides(triangles[polygon == number]).reshape(-1, 2), axis=1)
+        directed = _sides(triangles[polygon == number]).reshape(-1, 2)
+        _, back_to, times = np.unique(within, axis=0, return_inverse=True, return_counts=True)
+        rim = directed[times[back_to] == 1]
+        hub = len(points) + sum(len(m) for m in middles)
+        middles.append(everything[np.unique(rim)].mean(axis=0)[None])
+        out.append(np.column_stack([np.full(len(rim), hub), rim]))
+    return Filling(np.concatenate(middles), np.concatenate(out))
 
 
 def _place(points: Vectors, face: Face) -> str:

@@ -6,7 +6,8 @@ fabric and wire would lay them flat. Springs so weak that they change no shape d
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,10 @@ class LevellingEnergy:
 
     vertices: Indices
     stiffness: Vectors
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
+        return replace(self, vertices=self.vertices[rows], stiffness=self.stiffness[rows])
 
     def energies(self, corners: Vectors) -> Vectors:
         """Energy (m,) of each vertex."""

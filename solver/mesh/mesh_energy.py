@@ -104,10 +104,17 @@ class MeshEnergy:
         return pull
 
 
+def listed(family: Family) -> tuple[Elements, ...]:
+    """One term's elements, those of each number of vertices apart."""
+    return family if isinstance(family, tuple) else (family,)
+
+
 def mesh_energy(families: Mapping[str, Family], vertices: int) -> MeshEnergy:
     """Sum of families of elements on so many vertices; empty families are left out."""
-    listed = {name: f if isinstance(f, tuple) else (f,) for name, f in families.items()}
-    filled = {name: tuple(e for e in f if len(e.vertices)) for name, f in listed.items()}
+    filled = {
+        name: tuple(e for e in listed(family) if len(e.vertices))
+        for name, family in families.items()
+    }
     present = {name: family for name, family in filled.items() if family}
     blocks = block_pattern([e.vertices for f in present.values() for e in f], vertices)
     assemblies = {

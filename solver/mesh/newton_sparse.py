@@ -31,8 +31,6 @@ that is enough. All but a few of its eigenvalues are the Hessian's own: few iter
 _ROUNDING = 1e-13
 _NEXT_TO_NOTHING = 1e-10
 """Part of the energy that a minimum may lack along an all but free motion."""
-_LITTLE = 1e-6
-"""Part of the energy that a way down from a minimum may still gain where fabric is wrinkled."""
 _STALLED_STEPS = 10
 """Steps in a row that gain so little together where fabric is wrinkled, or mere rounding."""
 _ALL_BUT_FREE = 1e-3
@@ -214,7 +212,7 @@ def _stalled(search: _Search, state: _State) -> bool:
     if state.gradient_norm > (_SMALL_GRADIENT if limits.steady else limits.gradient):
         return False
     before = search.account.values[-1 - _STALLED_STEPS : -_STALLED_STEPS]
-    little = _LITTLE * abs(state.value) if limits.steady else _noise(state.value)
+    little = limits.little * abs(state.value) if limits.steady else _noise(state.value)
     return bool(before) and before[0] - state.value <= little
 
 
@@ -249,7 +247,7 @@ def _stepped(search: _Search, state: _State, model: QuadraticModel, radius: floa
 def _leads_nowhere(search: _Search, state: _State, tried: _Tried) -> bool:
     """Whether a way down gains little: kinks of the stiffness open such, a saddle point others."""
     gain = state.value - search.energy.value(tried.positions)
-    return tried.accepted and gain <= _LITTLE * abs(state.value)
+    return tried.accepted and gain <= search.limits.little * abs(state.value)
 
 
 def _ended(search: _Search, state: _State, factored: Factored, *, converged: bool) -> SparseMinimum:
@@ -263,6 +261,7 @@ def _ended(search: _Search, state: _State, factored: Factored, *, converged: boo
         steps=search.account.steps,
         factorizations=search.account.factorizations,
         converged=converged,
+        way=tuple(search.account.values),
     )
 
 
@@ -283,7 +282,8 @@ def minimise_sparse(
         For the energy's pattern.
     """
     limits = limits or SearchLimits()
-    search = _Search(energy, np.repeat(mass, 3), factoriser, limits, _Account())
+    account = _Account(values=list(limits.before))
+    search = _Search(energy, np.repeat(mass, 3), factoriser, limits, account)
     state = search.state(positions)
     radius = limits.radius
     while True:

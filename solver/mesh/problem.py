@@ -15,7 +15,10 @@ from solver.mesh.array_mesh import array_fan
 from solver.mesh.bonds import bond_energy
 from solver.mesh.levelling import levelling_energy
 from solver.mesh.loop_mesh import SEGMENTS, loop_fan
-from solver.mesh.mesh_energy import Family, MeshEnergy, mesh_energy
+from solver.mesh.mesh_energy import Family, MeshEnergy, listed, mesh_energy
+from solver.mesh.mirror import Mirrors
+from solver.mesh.mirrored_energy import MirroredEnergy
+from solver.mesh.orbits import one_of_each
 from solver.mesh.plane_mesh import plane_mesh
 from solver.mesh.rod_energy import WireStiffness, rod_energies
 from solver.mesh.scene import ArrayScene, Contact, loop_wire
@@ -62,6 +65,9 @@ class MeshProblem:
         Stiffness, in units of E_f t, with which all is drawn to the plane.
     alpha : float
         α of the fabric's bending.
+    mirrored : bool
+        Whether only shapes are looked at that are their own images in the planes through the
+        meshes' middle; see `solver.mesh.mirrored_energy`.
     """
 
     meshes: tuple[Mesh, ...]
@@ -73,6 +79,7 @@ class MeshProblem:
     loose: frozenset[int] = frozenset()
     levelling: float = 0.0
     alpha: float = 0.0
+    mirrored: bool = False
 
     def fabric_on(self, level: int) -> TriangleEnergy:
         """Fabric on one of the meshes."""
@@ -82,6 +89,17 @@ class MeshProblem:
 
     def energy(self, level: int) -> MeshEnergy:
         """Energy on one of the meshes."""
+        return mesh_energy(self._families(level), len(self.meshes[level].points))
+
+    def mirrored_energy(self, level: int, planes: Mirrors) -> MirroredEnergy:
+        """Energy on one of the meshes of shapes that are their own images in planes."""
+        quarter = {
+            name: tuple(one_of_each(elements, planes) for elements in listed(family))
+            for name, family in self._families(level).items()
+        }
+        return MirroredEnergy(mesh_energy(quarter, len(self.meshes[level].points)), planes)
+
+    def _families(self, level: int) -> dict[str, Family]:
         mesh = self.meshes[level]
         bending, stretch = rod_energies(mesh, self.wires)
         families: dict[str, Family] = {
@@ -97,7 +115,7 @@ class MeshProblem:
         if self.alpha > 0:
             families["fabric bending"] = star_bending(mesh, self.alpha)
         families["wire twist"] = twist_energies(mesh, self.wires)
-        return mesh_energy(families, len(mesh.points))
+        return families
 
     def softened(self, axial_stiffness: float) -> MeshProblem:
         """Give the same with wires no stiffer than that against stretch."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,15 @@ class BendingEnergy:
     vertices: Indices
     beta: Vectors
     natural_curvature: Vectors
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
+        return replace(
+            self,
+            vertices=self.vertices[rows],
+            beta=self.beta[rows],
+            natural_curvature=self.natural_curvature[rows],
+        )
 
     def energies(self, corners: Vectors) -> Vectors:
         """Energy (m,) of each vertex."""
@@ -69,6 +79,12 @@ class AxialEnergy:
     vertices: Indices
     stiffness: Vectors
     rest: Vectors
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
+        return replace(
+            self, vertices=self.vertices[rows], stiffness=self.stiffness[rows], rest=self.rest[rows]
+        )
 
     def energies(self, corners: Vectors) -> Vectors:
         """Energy (m,) of each edge."""

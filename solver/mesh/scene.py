@@ -78,6 +78,11 @@ class ArrayScene:
         return Grid(self.rows, self.columns)
 
     @property
+    def gaps_kept(self) -> bool:
+        """Whether fabric couples the loops; a single row encloses no gaps that could have any."""
+        return self.between is Between.KEPT and min(self.rows, self.columns) > 1
+
+    @property
     def stiffness(self) -> tuple[WireStiffness, ...]:
         """Each loop's wire, row by row."""
         return self.wires or (loop_wire(self.loop),) * (self.rows * self.columns)

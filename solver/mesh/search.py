@@ -29,6 +29,10 @@ class SearchLimits:
     steady : bool
         Whether steps are found with `Curvature.STEADY`, for fabric whose stiffness has kinks; such
         a minimisation also ends where next to nothing is left to gain.
+    little : float
+        Part of the energy that a way down from there may still gain.
+    before : tuple of float
+        Energies on the way to where it begins, when it goes on from where another ended.
     """
 
     gradient: float = 1e-8
@@ -36,6 +40,8 @@ class SearchLimits:
     radius: float = 0.3
     steps: int = 500
     steady: bool = False
+    little: float = 1e-6
+    before: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,8 @@ class SparseMinimum:
     steps, factorizations : int
     converged : bool
         Whether the gradient is small and no eigenvalue is negative.
+    way : tuple of float
+        Energies at the shapes on the way, this one's last.
     """
 
     positions: Vectors
@@ -67,3 +75,4 @@ class SparseMinimum:
     steps: int
     factorizations: int
     converged: bool
+    way: tuple[float, ...] = ()

@@ -6,8 +6,9 @@ This needs no library: every answer on a mesh is looked at so.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ NEIGHBOURS = 0.3
 """Parts that are nearer than this when flat, over the half-width of the narrowest loop, are no
 measure of how near the shape comes to itself."""
 
+_AT_A_TIME = 1000
 LOOKED = 0.1
 """How far is looked for the nearest pair, in units of R."""
 
@@ -57,15 +59,25 @@ class _Parts:
     now: Vectors
     flat: Vectors
 
-    @property
+    @cached_property
     def middles(self) -> Vectors:
+        """Middle (m, 3) of each."""
         return self.now.mean(axis=1)
 
-    @property
-    def radius(self) -> float:
-        """Of the smallest ball about its middle that holds any of them."""
-        arms = self.now - self.middles[:, None]
-        return float(np.linalg.norm(arms, axis=2).max(initial=0.0))
+    @cached_property
+    def radii(self) -> Vectors:
+        """Radius (m,) of the smallest ball about its middle that holds each."""
+        return np.linalg.norm(self.now - self.middles[:, None], axis=2).max(axis=1, initial=0.0)
+
+    @cached_property
+    def low(self) -> Vectors:
+        """Lowest corner (m, 3) of the box about each."""
+        return self.now.min(axis=1)
+
+    @cached_property
+    def high(self) -> Vectors:
+        """Highest corner (m, 3) of the box about each."""
+        return self.now.max(axis=1)
 
 
 def _parts(vertices: Indices, mesh: Mesh, positions: Vectors) -> _Parts:
@@ -73,13 +85,28 @@ def _parts(vertices: Indices, mesh: Mesh, positions: Vectors) -> _Parts:
     return _Parts(vertices, positions[vertices], flat[vertices])
 
 
-def _pairs(one: _Parts, other: _Parts, within: float) -> tuple[Indices, Indices]:
-    """Pairs that may be within a distance of each other."""
-    reach = within + one.radius + other.radius
-    near = cKDTree(one.middles).sparse_distance_matrix(
-        cKDTree(other.middles), reach, output_type="ndarray"
-    )
-    return near["i"], near["j"]
+def _pairs(one: _Parts, other: _Parts, within: float) -> Iterator[tuple[Indices, Indices]]:
+    """Pairs that may be within a distance of each other, some thousand elements at a time.
+
+    A rolled-up shape has tens of millions of pairs of balls that overlap: their boxes tell most of
+    them apart, and no more than a part of them is ever in memory.
+    """
+    tree = cKDTree(other.middles)
+    widest = float(other.radii.max(initial=0.0))
+    for start in range(0, len(one.vertices), _AT_A_TIME):
+        rows = slice(start, start + _AT_A_TIME)
+        reach = within + widest + float(one.radii[rows].max(initial=0.0))
+        near = cKDTree(one.middles[rows]).sparse_distance_matrix(tree, reach, output_type="ndarray")
+        i, j = start + near["i"], near["j"]
+        close = near["v"] <= within + one.radii[i] + other.radii[j]
+        i, j = i[close], j[close]
+        for axis in range(3):
+            apart = np.maximum(
+                one.low[i, axis] - other.high[j, axis], other.low[j, axis] - one.high[i, axis]
+            )
+            close = apart <= within
+            i, j = i[close], j[close]
+        yield i, j
 
 
 def _apart(one: _Parts, i: Indices, other: _Parts, j: Indices) -> Flags:
@@ -101,10 +128,11 @@ def _smallest(
     distance: Callable[[Vectors, Vectors], Vectors],
 ) -> float:
     """Smallest distance of pairs that lie further apart than ``near`` when flat."""
-    i, j = _pairs(one, other, within)
-    far = distance(one.flat[i], other.flat[j]) > near
-    found = distance(one.now[i[far]], other.now[j[far]])
-    smallest = float(found.min(initial=np.inf))
+    smallest = math.inf
+    for i, j in _pairs(one, other, within):
+        far = distance(one.flat[i], other.flat[j]) > near
+        found = distance(one.now[i[far]], other.now[j[far]])
+        smallest = min(smallest, float(found.min(initial=np.inf)))
     return smallest if smallest <= within else math.inf
 
 
@@ -120,13 +148,15 @@ def crossings(mesh: Mesh, positions: Vectors) -> int:
     """Number of pairs of an edge and a triangle of which one passes through the other."""
     edges = _parts(mesh_edges(mesh.triangles), mesh, positions)
     triangles = _parts(mesh.triangles, mesh, positions)
-    i, j = _pairs(edges, triangles, 0.0)
     start, end = edges.now[:, 0], edges.now[:, 1]
-    through = on_both_sides(start[i], end[i], triangles.now[j])
-    i, j = i[through], j[through]
-    apart = _apart(edges, i, triangles, j)
-    i, j = i[apart], j[apart]
-    return int(np.sum(pierces(start[i], end[i], triangles.now[j])))
+    count = 0
+    for near in _pairs(edges, triangles, 0.0):
+        apart = _apart(edges, near[0], triangles, near[1])
+        i, j = near[0][apart], near[1][apart]
+        through = on_both_sides(start[i], end[i], triangles.now[j])
+        i, j = i[through], j[through]
+        count += int(np.sum(pierces(start[i], end[i], triangles.now[j])))
+    return count
 
 
 def _half_width(mesh: Mesh) -> float:

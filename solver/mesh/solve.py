@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,9 +11,10 @@ from numpy.typing import NDArray
 from solver.errors import SceneError
 from solver.flat import flat_radius
 from solver.mesh.account import account
-from solver.mesh.array_mesh import Between
+from solver.mesh.array_mesh import Grid
 from solver.mesh.descent import descend, roughly_solved
 from solver.mesh.equilibrium import MeshEquilibrium
+from solver.mesh.growth import solved_by_growth
 from solver.mesh.loop_mesh import SEGMENTS
 from solver.mesh.lower_saddle import rough_saddles
 from solver.mesh.problem import MeshProblem, array_problem, loop_problem
@@ -94,7 +96,20 @@ def solve_loop_mesh(
 
 def _tiles(scene: ArrayScene) -> bool:
     """Whether copies of one loop's saddle fit together."""
-    return scene.between is Between.CUT and scene.loop.isotropic_circle
+    return not scene.gaps_kept and scene.loop.isotropic_circle
+
+
+def _repeats(scene: ArrayScene) -> bool:
+    """Whether a grid is alike in its middle, and buckles with crests along its rows."""
+    return scene.gaps_kept and scene.loop.isotropic_circle and not scene.wires
+
+
+def _mirrored_problem(
+    scene: ArrayScene, refinement: int, segments: int, tension_field: bool, grid: Grid
+) -> MeshProblem:
+    scene = replace(scene, rows=grid.rows, columns=grid.columns)
+    problem = array_problem(scene, refinement, tension_field=tension_field, segments=segments)
+    return replace(problem, mirrored=True)
 
 
 def solve_array(
@@ -133,6 +148,9 @@ def solve_array(
         # tiles that lie level are as high as one of them, on a coarser mesh too
         coarser = np.full_like(tiled.loop_heights, loop.coarser_height)
         return replace(tiled, coarser_height=loop.coarser_height, coarser_loop_heights=coarser)
+    elif _repeats(scene):
+        grown = partial(_mirrored_problem, scene, refinement, segments, tension_field)
+        solved = solved_by_growth(problem, scene.grid, grown, backend, most_steps)
     else:
         first = _COARSEST_ARRAY
         flat = array_start(problem.meshes[first])

@@ -13,7 +13,8 @@ heights converge with second order.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,10 @@ class StarBending:
     @property
     def _around(self) -> int:
         return self.vertices.shape[1] - 1
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
+        return replace(self, vertices=self.vertices[rows])
 
     def _triangles(self, corners: Vectors) -> CornerArea:
         """Triangles (m · a) of the stars, middle first."""

@@ -6,7 +6,8 @@ triangle.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,15 @@ class TriangleEnergy:
     shape_gradients: Vectors
     areas: Vectors
     law: FabricLaw
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
+        return replace(
+            self,
+            vertices=self.vertices[rows],
+            shape_gradients=self.shape_gradients[rows],
+            areas=self.areas[rows],
+        )
 
     def _deformation(self, corners: Vectors) -> Vectors:
         """Deformation gradient (m, 3, 2) from the unstretched fabric."""

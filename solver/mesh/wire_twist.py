@@ -12,7 +12,8 @@ element, its Hessian full.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,10 @@ class TwistEnergy:
 
     vertices: Indices
     stiffness: Vectors
+
+    def part(self, rows: Indices) -> Self:
+        """Give the elements in these rows."""
+        return replace(self, vertices=self.vertices[rows], stiffness=self.stiffness[rows])
 
     def _swept(self, corners: Vectors) -> SweptArea:
         """Areas (m · n) from edge to edge, each loop's about its own axis."""

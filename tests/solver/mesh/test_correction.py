@@ -101,11 +101,11 @@ def test_what_no_correction_helps_is_left_alone(wrong):
 
 
 def test_arrays_with_their_fabric_kept_take_few_steps():
-    """Without corrections the finer mesh alone takes 56 steps."""
+    """Without corrections it takes twice as many."""
     found = solve_array(ArrayScene(LOOP, 3, 3, Between.KEPT), refinement=1)
     assert found.status == "converged"
-    assert found.steps < 90
-    assert found.energy == pytest.approx(3.0611821, rel=1e-7)
+    assert found.steps < 70
+    assert found.energy == pytest.approx(2.9777034, rel=1e-7)
 
 
 @pytest.mark.parametrize("segments", [4, 18, 0])

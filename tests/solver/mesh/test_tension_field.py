@@ -174,9 +174,9 @@ def test_heights_of_slack_loops_settle(strain, beta, limit):
 def test_kept_arrays(size):
     scene = ArrayScene(LOOP, size, size, Between.KEPT)
     plain, relaxed = (
-        solve_array(scene, refinement=1, tension_field=field) for field in (False, True)
+        solve_array(scene, refinement=2, tension_field=field) for field in (False, True)
     )
     assert relaxed.status == "converged"
     assert 0.99 * plain.energy < relaxed.energy < plain.energy
-    assert relaxed.height == pytest.approx(plain.height, rel=0.05)
+    assert relaxed.height == pytest.approx(plain.height, rel=0.08)
     assert relaxed.lowest_eigenvalue > 0
