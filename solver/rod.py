@@ -118,8 +118,8 @@ class Rod:
         self, tangent: Vectors, change: Vectors, speed: Vectors | float = 1.0
     ) -> Vectors:
         """Tension (…, Q) of a wire with x' (…, Q, 3), to first order in a change of x'."""
-        length = np.sqrt(np.sum(tangent * tangent, axis=-1))
-        longer = np.sum(tangent * change, axis=-1) / length
+        length = np.sqrt(_dot(tangent, tangent))
+        longer = _dot(tangent, change) / length
         return self.axial_stiffness * ((length + longer) / speed - 1)
 
     def _bending(self, a: Vectors, b: Vectors, c: Vectors) -> tuple[Vectors, Vectors, Vectors]:
@@ -179,8 +179,9 @@ def by_unknowns(curvature: Vectors, edge_map: Vectors) -> Vectors:
 
 def _invariants(tangent: Vectors, second: Vectors) -> tuple[Vectors, Vectors, Vectors]:
     """Give x'·x', x''·x'' and x'·x''."""
-    return (
-        np.sum(tangent * tangent, axis=-1),
-        np.sum(second * second, axis=-1),
-        np.sum(tangent * second, axis=-1),
-    )
+    return _dot(tangent, tangent), _dot(second, second), _dot(tangent, second)
+
+
+def _dot(one: Vectors, other: Vectors) -> Vectors:
+    """Scalar products (…,) of vectors (…, 3)."""
+    return np.einsum("...a,...a->...", one, other)
