@@ -12,7 +12,7 @@ from solver.disc_basis import DiscBasis
 from solver.free_motions import free_motions_of, lifted
 from solver.quartic import FabricPolynomial, QuarticTable, shape_table
 from solver.reading import density_coefficients
-from solver.rod import Rod
+from solver.rod import Rod, by_unknowns
 from solver.scene import LoopScene
 from solver.stability import classes_of, motions
 
@@ -88,12 +88,12 @@ class LoopBatch:
 
     def weakest_stiffness(self, basis: DiscBasis, q: Vectors, highest: int) -> Vectors:
         """Lowest eigenvalue (B,) among motions up to a degree, as `weakest_motion` finds it."""
+        listed = [motions(basis, "saddle", symmetry, highest) for symmetry in classes_of("saddle")]
+        edge = (q @ listed[0].edge.reshape(-1, basis.size).T).reshape(len(q), -1, 6)
+        wire = self.rod.along(edge, listed[0].basis.arc)[2]
         found = np.full(len(q), np.inf)
-        for symmetry in classes_of("saddle"):
-            moves = motions(basis, "saddle", symmetry, highest)
-            edge = (q @ moves.edge.reshape(-1, basis.size).T).reshape(len(q), -1, 6)
-            wire = self.rod.derivatives(edge, moves.basis.arc, moves.basis.edge)[2]
-            hessian = wire + self.fabric(moves.table).hessian(q)
+        for moves in listed:
+            hessian = by_unknowns(wire, moves.basis.edge) + self.fabric(moves.table).hessian(q)
             free = free_motions_of(basis, moves.basis, q, isotropic=True)
             found = np.minimum(found, np.linalg.eigvalsh(lifted(hessian, free))[:, 0])
         return found

@@ -54,7 +54,7 @@ def flat_state(scene: LoopScene) -> tuple[Refined, WeakestMotion]:
     for degree in BRANCH_DEGREES:
         energy = loop_energy(scene, disc_basis(degree, FLAT))
         start = transfer(basis, energy.basis) @ q
-        minimum = settle(scene, energy, start, solved=bool(solved))
+        minimum = settle(scene, energy, start, (basis, q) if solved else None)
         basis, q = energy.basis, minimum.unknowns
         steps, factorizations = steps + minimum.steps, factorizations + minimum.factorizations
         refined = Refined(FLAT, energy, minimum, 0.0, 0.0, steps, factorizations)
@@ -77,7 +77,7 @@ def _branch_start(scene: LoopScene, flat: Refined, space: Symmetry) -> Refined:
     soft = replace(scene, axial_stiffness=min(scene.axial_stiffness, _SOFT_WIRE))
     rough = minimise(loop_energy(soft, basis).derivatives, start, tolerance=_ROUGHLY, radius=0.5)
     energy = loop_energy(scene, basis)
-    minimum = settle(scene, energy, rough.unknowns, solved=False)
+    minimum = settle(scene, energy, rough.unknowns)
     height = LoopShape(basis.unknowns, minimum.unknowns).height
     steps, factorizations = rough.steps + minimum.steps, rough.factorizations
     factorizations += minimum.factorizations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -91,6 +92,8 @@ def own_curvature_excess(scene: LoopScene, basis: DiscBasis, q: Vectors) -> floa
     without limit: (κ − κ0)² resists no motion across a curve of less curvature. Only the wire's
     resistance to twist would stop it.
     """
+    if scene.natural_curvature == 0:
+        return 0.0
     tangent, second = basis.tangent @ q, basis.second @ q
     turn = np.linalg.norm(np.cross(tangent, second), axis=1)
     curvature = turn / np.linalg.norm(tangent, axis=1) ** 3
@@ -101,19 +104,25 @@ def smallest_wire_gap(shape: LoopShape) -> float:
     """Smallest distance of wire centrelines across the loop, in units of R; negative when crossed.
 
     Opposite crests come together first. They count as crossed when each lies on the other's side.
+    The half-turn about z, which all loops' shapes have, repeats every pair of points.
     """
     if shape.width <= 0:
         return shape.width
-    edge = shape.edge(EDGE_POINTS)
-    return float(cdist(edge, edge)[_across()].min())
+    edge = shape.curve.samples(EDGE_POINTS)
+    squared = cdist(edge[: EDGE_POINTS // 2], edge[EDGE_POINTS // 4 :], "sqeuclidean")
+    return math.sqrt(squared.take(_across()).min())
 
 
 @lru_cache(maxsize=1)
-def _across() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Pairs of points of the wire that lie a quarter to half a turn apart."""
-    apart = np.arange(EDGE_POINTS // 4, EDGE_POINTS // 2 + 1)
-    start, ahead = np.meshgrid(np.arange(EDGE_POINTS), apart, indexing="ij")
-    return start.ravel(), ((start + ahead) % EDGE_POINTS).ravel()
+def _across() -> NDArray[np.intp]:
+    """Where pairs of points stand that lie a quarter to half a turn apart.
+
+    The table's rows are the points of the wire's first half turn, its columns those from a quarter
+    turn on.
+    """
+    start, farther = np.arange(EDGE_POINTS // 2), np.arange(EDGE_POINTS // 4 + 1)
+    columns = EDGE_POINTS - EDGE_POINTS // 4
+    return np.ravel(columns * start[:, None] + start[:, None] + farther)
 
 
 @lru_cache(maxsize=16)
@@ -142,7 +151,7 @@ def smallest_fabric_gap(scene: LoopScene, shape: LoopShape) -> float:
     Fabric that lies near a point of the wire when flat is left out.
     """
     fabric = shape.position(*_fabric_points())
-    now = cdist(fabric, shape.edge(EDGE_POINTS))
+    now = cdist(fabric, shape.curve.samples(EDGE_POINTS))
     return float(now[_far_when_flat(scene.semi_axes)].min())
 
 

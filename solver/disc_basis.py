@@ -187,6 +187,12 @@ def disc_basis(degree: int, space: Space) -> DiscBasis:
     )
 
 
+@lru_cache(maxsize=256)
+def tangent_map(source: DiscBasis, points: DiscBasis) -> Vectors:
+    """Linear map (Q, 3, n) from a basis' unknowns to x' at the points of another basis' edge."""
+    return _edge_map(source.unknowns, points.angle, 1)
+
+
 @lru_cache(maxsize=64)
 def jet_map(basis: DiscBasis) -> Vectors:
     """Linear map (P, 5, 3, n) to derivatives by x, y, xx, xy and yy at the points of a basis."""

@@ -17,9 +17,9 @@ _CLOSE = 1e-9
 
 
 @lru_cache(maxsize=16)
-def _samples(waves: int) -> tuple[Vectors, Vectors]:
-    """Cosines and sines (samples, waves) of all waves at equally spaced angles."""
-    phase = np.outer(np.arange(_SAMPLES) * (2 * np.pi / _SAMPLES), np.arange(waves))
+def _samples(count: int, waves: int) -> tuple[Vectors, Vectors]:
+    """Cosines and sines (count, waves) of all waves at equally spaced angles."""
+    phase = np.outer(np.arange(count) * (2 * np.pi / count), np.arange(waves))
     return np.cos(phase), np.sin(phase)
 
 
@@ -42,6 +42,11 @@ class EdgeCurve:
         power = m.astype(float) ** derivative
         return (np.cos(phase) * power) @ self.cosines + (np.sin(phase) * power) @ self.sines
 
+    def samples(self, count: int) -> Vectors:
+        """Positions (count, 3) at equally spaced angles, from 0; quick for a count used before."""
+        cosine, sine = _samples(count, len(self.cosines))
+        return cosine @ self.cosines + sine @ self.sines
+
     @property
     def crest(self) -> float:
         """Angle of the highest point; 0 when all are level."""
@@ -56,7 +61,7 @@ class EdgeCurve:
 
     def _highest(self, sign: float) -> float:
         """Angle of the largest sign·z: the highest sample, refined by Newton's steps on z'."""
-        cosine, sine = _samples(len(self.cosines))
+        cosine, sine = _samples(_SAMPLES, len(self.cosines))
         rise = cosine @ self.cosines[:, 2] + sine @ self.sines[:, 2]
         start = float(np.argmax(sign * rise)) * (2 * np.pi / _SAMPLES)
         best = start

@@ -145,8 +145,8 @@ def scene_weights(scene: LoopScene) -> Vectors:
 
 def _integrals(basis: DiscBasis, q: Vectors) -> list[float]:
     table = shape_table(basis)
-    doubled = table.products(q)
-    shear, swell = doubled @ (table.tensors @ doubled).reshape(2, -1).T
+    one, none = np.ones(1), np.zeros(1)
+    shear, swell = (q @ table.applied(q, *weights) @ q for weights in ((one, none), (none, one)))
     edge = basis.edge @ q
     bend = np.linalg.norm(np.cross(edge[:, :3], edge[:, 3:]), axis=1)
     speed = np.linalg.norm(edge[:, :3], axis=1)

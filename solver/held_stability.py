@@ -19,7 +19,7 @@ from solver.edge_rows import edge_rows
 from solver.free_motions import all_motions_of
 from solver.plates import Contact, Pitch, Plates
 from solver.scene import LoopScene
-from solver.stability import classes_of, hessian_along, motions
+from solver.stability import classes_of, hessian_along, motions, wire_curvature
 from solver.symmetry import ALIGNED, Mirrors
 
 Vectors = NDArray[np.float64]
@@ -119,9 +119,11 @@ def held_stability(
     # bonds hold the wire's tangents too, and so the saddle's axes in the loop
     turns = np.array([False] * 3 + [True] * 3 + [isinstance(hold, Pitch)])
     upright, tilting = math.inf, math.inf
-    for symmetry in classes_of(ALIGNED):
-        moves = motions(basis, ALIGNED, symmetry, highest)
-        hessian = hessian_along(scene, moves, q, tabulated=False)
+    classes = classes_of(ALIGNED)
+    listed = [motions(basis, ALIGNED, symmetry, highest) for symmetry in classes]
+    wire = wire_curvature(scene, listed[0], q)
+    for symmetry, moves in zip(classes, listed, strict=True):
+        hessian = hessian_along(scene, moves, q, wire, tabulated=False)
         if isinstance(hold, Plates):
             rows, slopes = _contact_rows(moves.basis, hold.axis.component, contacts)
             hessian = hessian + slopes.T @ slopes

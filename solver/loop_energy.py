@@ -49,15 +49,15 @@ class LoopEnergy:
     def terms(self, q: Vectors) -> dict[str, float]:
         """Energy by term, units of E_f t R², at unknowns ``q`` (n,)."""
         basis = self.basis
-        tangent, second = basis.tangent @ q, basis.second @ q
-        bending, stretch = self.rod.energies(tangent, second, basis.arc, self.speed)
+        edge = basis.along_edge(q)
+        bending, stretch = self.rod.energies(edge[:, :3], edge[:, 3:], basis.arc, self.speed)
         terms = {
             "fabric stretch": self.membrane.energy(basis.gradient @ q, basis.area),
             "wire bending": bending,
             "wire stretch": stretch,
         }
         if self.twist is not None:
-            terms["wire twist"] = self.twist.energy(basis.along_edge(q), basis.arc)
+            terms["wire twist"] = self.twist.energy(edge, basis.arc)
         if self.bending is not None:
             terms["fabric bending"] = self.bending.energy(jet_map(basis) @ q, basis.area)
         return terms

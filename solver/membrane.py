@@ -10,6 +10,10 @@ from numpy.typing import NDArray
 
 Vectors = NDArray[np.float64]
 
+_UNIT = np.eye(2)
+_LISTED = np.array([0, 2, 2, 1])
+"""Where 11, 12, 21 and 22 stand among the strains and stresses of `Membrane.stiffness`."""
+
 
 @dataclass(frozen=True)
 class Membrane:
@@ -53,15 +57,12 @@ class Membrane:
     def green_lagrange(self, gradient: Vectors) -> Vectors:
         """Strain E, (…, 2, 2), of deformation gradients (…, 3, 2) relative to the unit disc."""
         stretched = gradient * self.stretch
-        return (np.swapaxes(stretched, -1, -2) @ stretched - np.eye(2)) / 2
+        return (np.swapaxes(stretched, -1, -2) @ stretched - _UNIT) / 2
 
     def stress(self, strain: Vectors) -> Vectors:
         """Second Piola–Kirchhoff stress ∂w/∂E, (…, 2, 2), in units of E_f."""
-        listed = np.stack(
-            [strain[..., 0, 0], strain[..., 1, 1], strain[..., 0, 1] + strain[..., 1, 0]], axis=-1
-        )
-        listed = listed @ self.stiffness
-        return listed[..., [[0, 2], [2, 1]]]
+        tensor = self.stiffness[_LISTED[:, None], _LISTED]
+        return (strain.reshape(*strain.shape[:-2], 4) @ tensor).reshape(strain.shape)
 
     def _rest(self, area: Vectors) -> Vectors:
         """Unstretched areas of areas of the unit disc."""
@@ -70,7 +71,7 @@ class Membrane:
     def energy(self, gradient: Vectors, area: Vectors) -> float:
         """∫ w dA0 over points with deformation gradients (P, 3, 2) and disc areas (P,)."""
         strain = self.green_lagrange(gradient)
-        density = np.sum(strain * self.stress(strain), axis=(-2, -1)) / 2
+        density = np.einsum("...jk,...jk->...", strain, self.stress(strain)) / 2
         return float(self._rest(area) @ density)
 
     def derivatives(

@@ -7,10 +7,15 @@ unknowns. With C = Fᵀ F, s = 1 + ε and w = a Tr E² + b (Tr E)², E = (s² C 
 
 The three integrals are tabulated once as symmetric tensors; what a scene costs after that is a
 product of a matrix and a vector, or of two matrices for many shapes at once.
+
+Unknowns move points in the plane or along z, and C is the sum of what either do alone. So half of
+the tensors' entries are 0: a derivative by two unknowns of one kind holds no product of two kinds,
+and the other way round.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -20,6 +25,7 @@ from numpy.typing import NDArray
 from solver.disc_basis import DiscBasis
 
 Vectors = NDArray[np.float64]
+_Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 LARGEST = 24
 """With more unknowns the tensor takes more time than the integration that it replaces."""
@@ -32,27 +38,39 @@ class QuarticTable:
     Attributes
     ----------
     first, second : array of int (p,)
-        The p = n(n+1)/2 products q[first] q[second] in which these derivatives are linear.
-    twice : array (p,)
-        2 where the factors differ, else 1.
+        The p = n(n+1)/2 products q[first] q[second] in which these derivatives are linear, those of
+        one kind first.
     unpack : array of int (m, m)
         Where each entry of a symmetric matrix stands in its list of m(m+1)/2 entries.
     metric : array (m, m)
         ∫ Tr C dA is k·metric·k of a motion k.
-    tensors : array (m(m+1), p)
-        Symmetric tensors of ∫ Tr C² dA and, below, of ∫ (Tr C)² dA.
+    alike, mixed : array (2r, s)
+        Symmetric tensors of ∫ Tr C² dA and, below, of ∫ (Tr C)² dA, by r pairs of motions and s
+        products, those of one kind and those of two.
     """
 
     first: NDArray[np.intp]
     second: NDArray[np.intp]
-    twice: Vectors
     unpack: NDArray[np.intp]
     metric: Vectors
-    tensors: Vectors
+    alike: Vectors
+    mixed: Vectors
 
-    def products(self, q: Vectors) -> Vectors:
-        """Products (…, p) of the coefficients (…, n) of a shape."""
-        return q[..., self.first] * q[..., self.second] * self.twice
+    def applied(self, q: Vectors, shear: Vectors, swell: Vectors) -> Vectors:
+        """Tensor shear ∫ Tr C² dA + swell ∫ (Tr C)² dA applied twice to shapes (…, n), (…, m, m).
+
+        The two weights are arrays (…, 1).
+        """
+        products = q[..., self.first] * q[..., self.second]
+        count = self.alike.shape[1]
+        parts: list[Vectors] = []
+        for own, tensors in (
+            (products[..., :count], self.alike),
+            (products[..., count:], self.mixed),
+        ):
+            listed, rows = own @ tensors.T, len(tensors) // 2
+            parts.append(shear * listed[..., :rows] + swell * listed[..., rows:])
+        return np.concatenate(parts, axis=-1)[..., self.unpack]
 
 
 def _cauchy_green(left: Vectors, right: Vectors) -> Vectors:
@@ -62,21 +80,36 @@ def _cauchy_green(left: Vectors, right: Vectors) -> Vectors:
     return np.stack([product[:, 0, 0], product[:, 1, 1], both], axis=1)
 
 
-def _symmetric(own: Vectors, cross: Vectors, other: Vectors, weight: Vectors) -> Vectors:
-    """Symmetric tensor of ∫ D·D from D (P, d, m, m), (P, d, m, n) and (P, d, n, n), by pairs.
+def _pairs(gradient: Vectors) -> tuple[_Pairs, _Pairs]:
+    """Pairs i ≤ j of unknowns with gradients (P, 3, 2, n): those of one kind, those of two."""
+    rises = np.abs(gradient[:, 2]).max(axis=(0, 1)) > 0
+    i, j = np.triu_indices(len(rises))
+    mixed = rises[i] != rises[j]
+    return (i[~mixed], j[~mixed]), (i[mixed], j[mixed])
 
-    Rows are the pairs i ≤ j of motions, columns the pairs k ≤ l of shapes.
+
+def _symmetric(
+    own: Vectors,
+    cross: Vectors,
+    other: Vectors,
+    weight: Vectors,
+    pairs: Iterable[tuple[_Pairs, _Pairs]],
+) -> Iterator[Vectors]:
+    """Symmetric tensors of ∫ D·D from D (P, d, m, m), (P, d, m, n) and (P, d, n, n).
+
+    Rows are pairs i ≤ j of motions, columns pairs k ≤ l of shapes. A product of different
+    coefficients stands for two.
     """
     m, n = cross.shape[-2:]
-    (i, j), (first, second) = np.triu_indices(m), np.triu_indices(n)
     weighted = weight[:, None, None]
-    listed = (weighted * other[..., first, second]).reshape(-1, len(first))
-    straight = own[..., i, j].reshape(-1, len(i)).T @ listed
     scaled = (np.sqrt(weighted)[..., None] * cross).reshape(-1, m * n)
     crossed = (scaled.T @ scaled).reshape(m, n, m, n)
-    left, right = i[:, None], j[:, None]
-    pairs = crossed[left, first, right, second] + crossed[left, second, right, first]
-    return (straight + pairs) / 3
+    for (i, j), (first, second) in pairs:
+        listed = (weighted * other[..., first, second]).reshape(-1, len(first))
+        straight = own[..., i, j].reshape(-1, len(i)).T @ listed
+        left, right = i[:, None], j[:, None]
+        turned = crossed[left, first, right, second] + crossed[left, second, right, first]
+        yield (straight + turned) * np.where(first == second, 1 / 3, 2 / 3)
 
 
 def tabulate(motions: Vectors, shapes: Vectors, area: Vectors) -> QuarticTable:
@@ -89,7 +122,7 @@ def tabulate(motions: Vectors, shapes: Vectors, area: Vectors) -> QuarticTable:
     shapes : array (P, 3, 2, n)
     area : array (P,)
     """
-    m, n = motions.shape[-1], shapes.shape[-1]
+    m = motions.shape[-1]
     pairs = [
         _cauchy_green(motions, motions),
         _cauchy_green(motions, shapes),
@@ -98,19 +131,22 @@ def tabulate(motions: Vectors, shapes: Vectors, area: Vectors) -> QuarticTable:
     pairs[0] = (pairs[0] + np.swapaxes(pairs[0], -1, -2)) / 2
     pairs[2] = (pairs[2] + np.swapaxes(pairs[2], -1, -2)) / 2
     traces = [pair[:, :1] + pair[:, 1:2] for pair in pairs]
-    first, second = np.triu_indices(n)
-    rows = np.triu_indices(m)
+    rows, columns = _pairs(motions), _pairs(shapes)
+    (i, j), (first, second) = (np.concatenate(kinds, axis=1) for kinds in (rows, columns))
     unpack = np.zeros((m, m), dtype=np.intp)
-    unpack[rows] = np.arange(len(rows[0]))
-    unpack = np.maximum(unpack, unpack.T)
-    tensors = [_symmetric(own, cross, other, area) for own, cross, other in (pairs, traces)]
+    unpack[i, j] = unpack[j, i] = np.arange(len(i))
+    shear, swell = (
+        _symmetric(own, cross, other, area, zip(rows, columns, strict=True))
+        for own, cross, other in (pairs, traces)
+    )
+    alike, mixed = (np.concatenate(both) for both in zip(shear, swell, strict=True))
     return QuarticTable(
         first=first,
         second=second,
-        twice=np.where(first == second, 1.0, 2.0),
         unpack=unpack,
         metric=np.einsum("p,pkl->kl", area, traces[0][:, 0]),
-        tensors=np.concatenate(tensors),
+        alike=alike,
+        mixed=mixed,
     )
 
 
@@ -138,13 +174,9 @@ class FabricPolynomial:
 
     def _quartic(self, q: Vectors) -> Vectors:
         """The symmetric tensor applied twice to q, (…, m, m)."""
-        table = self.table
         scale = (1 + self.strain) ** 2 / 4
-        listed = table.products(q) @ table.tensors.T
-        half = listed.shape[-1] // 2
-        weighted = np.asarray(scale * self.a)[..., None] * listed[..., :half]
-        weighted += np.asarray(scale * self.b)[..., None] * listed[..., half:]
-        return weighted[..., table.unpack]
+        shear, swell = (np.asarray(scale * weight)[..., None] for weight in (self.a, self.b))
+        return self.table.applied(q, shear, swell)
 
     def hessian(self, q: Vectors) -> Vectors:
         """Second derivatives (…, m, m) along the motions, at shapes q (…, n)."""

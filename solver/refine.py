@@ -13,13 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.disc_basis import DiscBasis, Space, disc_basis, transfer
+from solver.disc_basis import DiscBasis, Space, disc_basis, tangent_map, transfer
 from solver.loop_energy import LoopEnergy, loop_energy
 from solver.newton import Minimum, minimise
 from solver.saddle_rows import crest_less_valley
 from solver.scene import LoopScene
 from solver.shape import LoopShape
-from solver.stiff_newton import stiff_minimum, tension_of
+from solver.stiff_newton import stiff_minimum
 
 Vectors = NDArray[np.float64]
 
@@ -89,19 +89,30 @@ _CREDIBLE_TENSION = 2.0
 
 
 def settle(
-    scene: LoopScene, energy: LoopEnergy, start: Vectors, *, solved: bool, roughly: float = 0.0
+    scene: LoopScene,
+    energy: LoopEnergy,
+    start: Vectors,
+    solved: tuple[DiscBasis, Vectors] | None = None,
+    *,
+    roughly: float = 0.0,
 ) -> Minimum:
     """Find the minimum near a first guess: quickly if the guess is good, and safely if not.
 
-    ``solved`` says whether the guess is the solution in a smaller basis, ``roughly`` how long the
-    last step may be where the guess is good.
+    ``solved`` is what the guess was made of: a shape that was solved in another basis, or for a
+    neighbouring scene. Its wire's tension is near to the one sought. That of the guess itself is
+    not: what a basis lacks of a shape stretches a stiff wire by more than its tension does.
+    ``roughly`` is how long the last step may be where the guess is good.
     """
-    tension = tension_of(energy, start)
-    known = solved and np.abs(tension).max() < _CREDIBLE_TENSION
-    none = np.zeros_like(tension)
-    found = stiff_minimum(energy, start, tension if known else none, roughly=roughly)
-    if found is not None:
-        return found
+    none = np.zeros_like(energy.basis.arc)
+    tensions = [none]
+    if solved is not None:
+        tension = _tension_at(energy, *solved)
+        if np.abs(tension).max() < _CREDIBLE_TENSION:
+            tensions = [tension, none]
+    for tension in tensions:
+        found = stiff_minimum(energy, start, tension, roughly=roughly)
+        if found is not None:
+            return found
     most_steps = _MOST_STEPS if len(start) <= _LARGE else _MOST_STEPS_OF_LARGE
     if scene.axial_stiffness > _SOFTER:
         # the valley of a stiff wire is too narrow for steps of the energy: near it by a softer one
@@ -119,6 +130,12 @@ def settle(
         radius=0.1,
         most_steps=most_steps,
     )
+
+
+def _tension_at(energy: LoopEnergy, basis: DiscBasis, q: Vectors) -> Vectors:
+    """Tension (Q,) of a shape of any basis, at the points of the energy's own."""
+    tangent = tangent_map(basis, energy.basis) @ q
+    return energy.rod.force_ahead(tangent, np.zeros_like(tangent), energy.speed)
 
 
 def carried(
@@ -164,7 +181,7 @@ def refine(
             scene,
             energy,
             carried(start, last, energy.basis),
-            solved=solved or bool(refined),
+            last or (start if solved else None),
             roughly=0.0 if refined else _FIRST_BASIS_STEP * math.sqrt(tolerance),
         )
         basis, q = last = energy.basis, minimum.unknowns

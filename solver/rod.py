@@ -54,17 +54,34 @@ class Rod:
 
         Parameters
         ----------
+        edge_map : array (Q, 6, n)
+        edge, arc, speed, force
+            As of `along`.
+        """
+        value, slope, curvature = self.along(edge, arc, speed, force)
+        gradient = slope.reshape(*edge.shape[:-2], -1) @ edge_map.reshape(-1, edge_map.shape[-1])
+        return value, gradient, by_unknowns(curvature, edge_map)
+
+    def along(
+        self,
+        edge: Vectors,
+        arc: Vectors,
+        speed: Vectors | float = 1.0,
+        force: Vectors | None = None,
+    ) -> tuple[Vectors, Vectors, Vectors]:
+        """Energy, its slope (…, Q, 6) and curvature (…, Q, 6, 6) by x' and x'' at each point.
+
+        Parameters
+        ----------
         edge : array (…, Q, 6)
             x' and x'' at Q points.
         arc : array (Q,)
             Weights dθ.
-        edge_map : array (Q, 6, n)
         speed : array (Q,), optional
             Length of wire per θ.
         force : array (…, Q), optional
-            The wire's tension as the Hessian is to take it, instead of that of the stretch.
+            The wire's tension as the curvature is to take it, instead of that of the stretch.
         """
-        n, batch = edge_map.shape[-1], edge.shape[:-2]
         pair = edge.reshape(*edge.shape[:-1], 2, 3)
         gram = pair @ np.swapaxes(pair, -1, -2)
         a, b, c = gram[..., 0, 0], gram[..., 1, 1], gram[..., 0, 1]
@@ -73,24 +90,22 @@ class Rod:
         slope[..., 0] += by_a
         slope *= arc[:, None]
         turn = slope[..., _METRIC] * _METRIC_FACTOR
+        pull = (turn @ pair).reshape(edge.shape)
         if force is not None:
             turn[..., 0, 0] += arc * (force - tension) / np.sqrt(a)
             tension = force
         curvature[..., 0, 0] += (self.axial_stiffness / speed - tension / np.sqrt(a)) / (4 * a)
         curvature *= arc[:, None, None]
-        # slopes of a, b and c by the unknowns
-        product = pair[..., None, :, :] @ edge_map.reshape(-1, 2, 3, n)
-        rows = np.empty((*edge.shape[:-1], 3, n))
-        np.multiply(product[..., 0, 0, :], 2, out=rows[..., 0, :])
-        np.multiply(product[..., 1, 1, :], 2, out=rows[..., 1, :])
-        np.add(product[..., 0, 1, :], product[..., 1, 0, :], out=rows[..., 2, :])
-        listed = rows.reshape(*batch, -1, n)
-        gradient = (slope.reshape(*batch, 1, -1) @ listed)[..., 0, :]
-        bent = (curvature @ rows).reshape(*batch, -1, n)
+        # slopes of a, b and c by x' and x''
+        rows = np.zeros((*edge.shape[:-1], 3, 6))
+        rows[..., 0, :3] = 2 * edge[..., :3]
+        rows[..., 1, 3:] = 2 * edge[..., 3:]
+        rows[..., 2, :3], rows[..., 2, 3:] = edge[..., 3:], edge[..., :3]
+        bent = np.swapaxes(rows, -1, -2) @ (curvature @ rows)
         # and their second derivatives
-        turned = (turn @ edge_map.reshape(-1, 2, 3 * n)).reshape(*batch, -1, n)
-        hessian = np.swapaxes(listed, -1, -2) @ bent + edge_map.reshape(-1, n).T @ turned
-        return (value + stretch) @ arc, gradient, hessian
+        for axis in range(3):
+            bent[..., axis::3, axis::3] += turn
+        return (value + stretch) @ arc, pull, bent
 
     def _stretch(self, a: Vectors, speed: Vectors | float) -> tuple[Vectors, Vectors, Vectors]:
         """(k/2)(√a/speed − 1)² speed, its slope by a, and the tension k (√a/speed − 1)."""
@@ -103,8 +118,8 @@ class Rod:
         self, tangent: Vectors, change: Vectors, speed: Vectors | float = 1.0
     ) -> Vectors:
         """Tension (…, Q) of a wire with x' (…, Q, 3), to first order in a change of x'."""
-        length = np.sqrt(np.sum(tangent * tangent, axis=-1))
-        longer = np.sum(tangent * change, axis=-1) / length
+        length = np.sqrt(_dot(tangent, tangent))
+        longer = _dot(tangent, change) / length
         return self.axial_stiffness * ((length + longer) / speed - 1)
 
     def _bending(self, a: Vectors, b: Vectors, c: Vectors) -> tuple[Vectors, Vectors, Vectors]:
@@ -155,10 +170,18 @@ class Rod:
         return value, slope, weight[..., None] * bent
 
 
+def by_unknowns(curvature: Vectors, edge_map: Vectors) -> Vectors:
+    """Hessian (…, n, n) from that (…, Q, 6, 6) by x' and x'', with a map (Q, 6, n) to these."""
+    n = edge_map.shape[-1]
+    turned = (curvature @ edge_map).reshape(*curvature.shape[:-3], -1, n)
+    return edge_map.reshape(-1, n).T @ turned
+
+
 def _invariants(tangent: Vectors, second: Vectors) -> tuple[Vectors, Vectors, Vectors]:
     """Give x'·x', x''·x'' and x'·x''."""
-    return (
-        np.sum(tangent * tangent, axis=-1),
-        np.sum(second * second, axis=-1),
-        np.sum(tangent * second, axis=-1),
-    )
+    return _dot(tangent, tangent), _dot(second, second), _dot(tangent, second)
+
+
+def _dot(one: Vectors, other: Vectors) -> Vectors:
+    """Scalar products (…,) of vectors (…, 3)."""
+    return np.einsum("...a,...a->...", one, other)

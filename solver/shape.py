@@ -62,8 +62,10 @@ class LoopShape:
         """The wire."""
         waves = 1 + max(term.function.m for unknown in self.unknowns for term in unknown)
         out = {"cos": np.zeros((waves, 3)), "sin": np.zeros((waves, 3))}
-        for (component, f), value in self.expansion.items():
-            out[f.trig][f.m, component] += value * f.edge_value
+        for unknown, coefficient in zip(self.unknowns, self.coefficients.tolist(), strict=True):
+            for term in unknown:
+                f = term.function
+                out[f.trig][f.m, term.component] += term.weight * coefficient * f.edge_value
         return EdgeCurve(out["cos"], out["sin"])
 
     @cached_property

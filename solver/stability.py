@@ -31,6 +31,7 @@ from solver.loop_energy import (
     scene_twist,
 )
 from solver.quartic import FabricPolynomial, QuarticTable, tabulate
+from solver.rod import by_unknowns
 from solver.scene import LoopScene
 from solver.shape import Expansion, LoopShape, from_expansion
 from solver.symmetry import ALIGNED, DIAGONAL, HALF_TURN, Mirrors, Symmetry, mirror_symmetry
@@ -130,34 +131,46 @@ def motions(shapes: DiscBasis, space: Space, symmetry: Symmetry, highest: int) -
     return Motions(shapes, basis, home.gradient @ into, home.edge @ into, writhing, home)
 
 
+def wire_curvature(scene: LoopScene, moves: Motions, q: Vectors) -> Vectors:
+    """Second derivatives (Q, 6, 6) of the wire's bending and stretch by x' and x'', at q (n,).
+
+    All classes of a space have the same points, and so the same of these.
+    """
+    basis = moves.basis
+    speed = edge_speed(scene, basis.angle)
+    return scene_rod(scene).along(moves.edge @ q, basis.arc, speed)[2]
+
+
 def hessian_along(
-    scene: LoopScene, moves: Motions, q: Vectors, *, tabulated: bool = True
+    scene: LoopScene, moves: Motions, q: Vectors, wire: Vectors, *, tabulated: bool = True
 ) -> Vectors:
     """Second variation (m, m) along motions of one class, at the shape q (n,).
 
-    ``tabulated`` makes a table for small bases, which pays after some hundred shapes.
+    ``wire`` is its `wire_curvature`. ``tabulated`` makes a table for small bases, which pays after
+    some hundred shapes.
     """
     basis, membrane = moves.basis, scene_membrane(scene)
     if tabulated and scene.isotropic_circle and moves.few:
         fabric = FabricPolynomial(moves.table, membrane.strain, membrane.a, membrane.b).hessian(q)
     else:
         fabric = membrane.derivatives(moves.gradient @ q, basis.area, basis.gradient)[2]
-    speed, edge = edge_speed(scene, basis.angle), moves.edge @ q
-    wire = scene_rod(scene).derivatives(edge, basis.arc, basis.edge, speed)[2]
     bending = scene_bending(scene)
     if bending is not None:
         fabric = fabric + bending.derivatives(moves.jet(q), basis.area, jet_map(basis))[2]
-    return fabric + wire + _twist_along(scene, moves, edge)
+    return fabric + by_unknowns(wire, basis.edge) + _twist_along(scene, moves, q)
 
 
-def _twist_along(scene: LoopScene, moves: Motions, edge: Vectors) -> Vectors | float:
-    """Second variation of the wire's twist at a shape with x' and x'' (Q, 6)."""
+def _twist_along(scene: LoopScene, moves: Motions, q: Vectors) -> Vectors | float:
+    """Second variation of the wire's twist at the shape q (n,)."""
     basis, twist = moves.basis, scene_twist(scene, moves.basis.angle)
+    if twist is None:
+        return 0.0
+    edge = moves.edge @ q
     out: Vectors | float = 0.0
-    if twist is not None and moves.writhing:
+    if moves.writhing:
         slope = writhe_slope(edge, basis.arc, basis.edge)
         out = 2 * twist.stiffness * np.outer(slope, slope)
-    if twist is not None and not moves.shapes.mirrored:
+    if not moves.shapes.mirrored:
         turns = twist.writhe(edge, basis.arc)
         bent = writhe_curvature(edge, basis.arc, basis.edge)
         out = out + 2 * twist.stiffness * turns * bent
@@ -197,11 +210,13 @@ def weakest_motion(
     highest : int, optional
         Degree of the polynomials up to which motions are tried; by default, that of the shape's.
     """
+    classes = classes_of(space)
+    listed = [motions(basis, space, each, highest or basis.degree + 1) for each in classes]
+    wire = wire_curvature(scene, listed[0], q)
     found: list[WeakestMotion] = []
-    for symmetry in classes_of(space):
-        moves = motions(basis, space, symmetry, highest or basis.degree + 1)
+    for symmetry, moves in zip(classes, listed, strict=True):
         free = free_motions_of(basis, moves.basis, q, isotropic=scene.isotropic_circle)
-        hessian = lifted(hessian_along(scene, moves, q), free)
+        hessian = lifted(hessian_along(scene, moves, q, wire), free)
         lowest = float(np.linalg.eigvalsh(hessian)[0])
         found.append(WeakestMotion(lowest, symmetry, moves.basis, hessian))
     return min(found, key=lambda motion: motion.eigenvalue)
@@ -215,7 +230,8 @@ def class_hessian(
     q = from_expansion(even.unknowns, shape.expansion)
     moves = motions(even, ALIGNED, mirror_symmetry(*symmetry), degree + 1)
     free = free_motions_of(even, moves.basis, q, isotropic=scene.isotropic_circle)
-    return hessian_along(scene, moves, q), orthonormal(free)
+    wire = wire_curvature(scene, moves, q)
+    return hessian_along(scene, moves, q, wire), orthonormal(free)
 
 
 def lowest_eigenvalue(scene: LoopScene, shape: LoopShape, degree: int) -> float:

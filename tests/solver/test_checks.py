@@ -3,6 +3,7 @@ import pytest
 
 from solver.checks import (
     CONTACT,
+    EDGE_POINTS,
     smallest_bend_radius,
     smallest_fabric_gap,
     smallest_stress,
@@ -14,7 +15,7 @@ from solver.disc_functions import DiscFunction
 from solver.flat import flat_shape
 from solver.scene import LoopScene
 from solver.shape import LoopShape, from_expansion
-from solver.symmetry import saddle
+from solver.symmetry import HALF_TURN, displacements, saddle
 
 
 def test_writhe_of_a_saddle_is_zero():
@@ -49,6 +50,23 @@ def test_bend_radius_of_the_flat_loop():
 def test_wire_gap_of_the_flat_loop_is_its_diameter_seen_from_a_quarter_turn():
     scene = LoopScene(0.3, 0.05, 0.3, axial_stiffness=1e9)
     assert smallest_wire_gap(flat_shape(scene, 5)) == pytest.approx(2**0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("waist", [0.0, -0.15])
+def test_wire_gap_is_the_smallest_distance_of_points_across(waist):
+    """The half-turn about z is the only symmetry of these shapes; a waist is narrowest across."""
+    unknowns = displacements(5, HALF_TURN)
+    disc = {(0, DiscFunction(1, 0, "cos")): 0.5, (1, DiscFunction(1, 0, "sin")): 0.4}
+    disc[1, DiscFunction(3, 0, "sin")] = -waist
+    noise = 0.02 * np.random.default_rng(3).normal(size=len(unknowns))
+    shape = LoopShape(unknowns, from_expansion(unknowns, disc) + noise)
+    edge, n = shape.edge(EDGE_POINTS), EDGE_POINTS
+    apart = [
+        np.linalg.norm(edge[i] - edge[(i + ahead) % n])
+        for i in range(n)
+        for ahead in range(n // 4, n // 2 + 1)
+    ]
+    assert smallest_wire_gap(shape) == pytest.approx(min(apart), rel=1e-12)
 
 
 def test_crossed_crests_are_seen():

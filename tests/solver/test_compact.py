@@ -99,6 +99,27 @@ def test_what_a_solve_reports():
     assert {left.term for left in found.omitted} >= {"twist of the wire"}
 
 
+def test_a_neighbours_tension_spares_steps():
+    scene = LoopScene(0.3, 0.0145, 0.3)
+    alone, found = (
+        solve_loop(scene),
+        solve_loop(scene, start=solve_loop(LoopScene(0.3, 0.015, 0.3))),
+    )
+    assert found.shape.height == pytest.approx(alone.shape.height, rel=1e-9)
+    assert found.factorizations <= 5
+
+
+def test_the_tension_of_no_neighbour_does_no_harm():
+    """It is compression, of which the wire of so much softer fabric would give way."""
+    scene = LoopScene(0.3, 0.0145, -0.5)
+    alone, found = (
+        solve_loop(scene),
+        solve_loop(scene, start=solve_loop(LoopScene(0.3, 0.015, 0.3))),
+    )
+    assert found.shape.height == pytest.approx(alone.shape.height, rel=1e-9)
+    assert found.factorizations <= 10
+
+
 def test_a_tighter_tolerance_takes_a_larger_basis():
     scene = LoopScene(0.3, 0.0145, 0.3)
     rough, fine = (solve_loop(scene, tolerance=t) for t in (1e-2, 1e-7))

@@ -13,11 +13,15 @@ from solver.shape import from_expansion
 from solver.stability import (
     CLASSES,
     class_hessian,
+    classes_of,
     free_motions,
+    hessian_along,
     lowest_eigenvalue,
+    motions,
     weakest_motion,
+    wire_curvature,
 )
-from solver.symmetry import mirror_class
+from solver.symmetry import ALIGNED, DIAGONAL, FLAT, mirror_class
 from solver.threshold import critical_beta
 
 
@@ -90,3 +94,24 @@ def test_slack_fabric_and_thin_wire_need_motions_of_all_degrees():
     assert telling_degree(LoopScene(0.3, 0.0145, 0.3), -0.01, 9) == 10
     assert telling_degree(LoopScene(0.3, 1e-4, 0.3), 0.1, 17) == 18
     assert telling_degree(LoopScene(0.3, 1e-3, 0.3), 0.1, 17) == 16
+
+
+@pytest.mark.parametrize("space", ["saddle", "oblique", ALIGNED, DIAGONAL, FLAT])
+def test_all_classes_of_a_space_see_the_same_points_of_the_wire(space):
+    basis = disc_basis(5, space)
+    for symmetry in classes_of(space):
+        moves = motions(basis, space, symmetry, 6)
+        assert moves.basis.angle == pytest.approx(moves.home.angle)
+
+
+@pytest.mark.parametrize("symmetry", classes_of("saddle"))
+def test_the_tabulated_second_variation_is_the_integrated_one(symmetry):
+    scene, basis = LoopScene(0.3, 0.0145, 0.3), disc_basis(7, "saddle")
+    q = solve_loop(scene, tolerance=1e-2).shape.coefficients
+    moves = motions(basis, "saddle", symmetry, 6)
+    wire = wire_curvature(scene, moves, q)
+    tabulated, integrated = (
+        hessian_along(scene, moves, q, wire, tabulated=quick) for quick in (True, False)
+    )
+    assert moves.few
+    assert tabulated == pytest.approx(integrated, abs=1e-9)
