@@ -178,10 +178,10 @@ def table(arrays, loops):
     yield "`python -m benchmarks.arrays`, one thread, each solve in a process of its own. Scene:"
     yield "ε = 0.3, β = 0.0145, ν = 0.3, fabric between the loops kept, or cut where that is said,"
     yield f"wires bonded. {platform.machine()}, Python {platform.python_version()}."
-    yield "No contact: a shape may pass through itself, and large arrays, which roll up, do. Each is"
-    yield "a minimum: small gradient, no negative eigenvalue; with a tension field, no way down that"
-    yield "gains 1e-8 of the energy. Arrays with their fabric kept are grown from smaller ones, which"
-    yield "is in the cost, as is the mesh before the last, by which the error is told."
+    yield "No contact: a shape may pass through itself, and large arrays, which roll up, do."
+    yield "Each is a minimum: small gradient, no negative eigenvalue; with a tension field, no way"
+    yield "down that gains 1e-8 of the energy. Arrays with their fabric kept are grown from smaller"
+    yield "ones, which is in the cost, as is the mesh before the last, by which the error is told."
     yield ""
     yield "| " + " | ".join(COLUMNS) + " |"
     yield "|---" * len(COLUMNS) + "|"
@@ -192,8 +192,9 @@ def table(arrays, loops):
             yield f"| {n} × {n} | {row['edges']} | {row['what']} | {told} |" + " |" * 9
             continue
         yield (
-            f"| {n} × {n} | {row['edges']} | {row['what']} | {cost(row)} | {row['energy'] / n**2:.5f} | "
-            f"{row['height']:.4f} | {row['lowest']:.1e} | {row['compressed']:.1%} |"
+            f"| {n} × {n} | {row['edges']} | {row['what']} | {cost(row)} | "
+            f"{row['energy'] / n**2:.5f} | {row['height']:.4f} | "
+            f"{row['lowest']:.1e} | {row['compressed']:.1%} |"
         )
     yield ""
     for model in COLOURS:
