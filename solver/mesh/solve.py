@@ -74,8 +74,7 @@ def solve_loop_mesh(
     NotConvergedError
         When no minimum is reached.
     SceneError
-        When the refinement is out of range, or a tension field is asked of fabric whose directions
-        are not alike.
+        When the refinement is out of range.
     """
     problem = loop_problem(scene, refinement, tension_field=tension_field, segments=segments)
     if start is not None:
