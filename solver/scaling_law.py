@@ -13,7 +13,7 @@ stationary where a quadratic in w vanishes.
 A wire that shortens by a part s of its length makes the loop one of radius 1 − s: its fabric is
 stretched by (1 + ε)(1 − s), its wire has β/(1 − s)³, and s is where the energy of the four
 integrals and of the wire's stretch is stationary. Of the flat loop that is exact, and so is the
-threshold for any axial stiffness: (6) of docs/theory.md, section 8 of which says where the law holds.
+threshold, (6) of docs/theory.md, for any axial stiffness. Its section 8 says where the law holds.
 """
 
 from __future__ import annotations
