@@ -52,7 +52,7 @@ def _law_data(answer: Answer) -> Data:
         "pitch_over_diameter": None,
         "energy": None,
         "energy_terms": None,
-        "status": "converged",
+        "status": "converged" if math.isfinite(answer.height_error) else "not compared",
         "gradient_norm": None,
         "lowest_eigenvalue": None,
         "steps": 0,

@@ -51,7 +51,7 @@ def print_answer(data: Data) -> None:
         ("rung", f"{data['rung']}: {data['reason']}"),
         ("shape", shape_name(data)),
         ("height / perimeter", f"{data['height_over_perimeter']:.6f}"),
-        ("error of the height", _number(data["height_error"], ".1e")),
+        ("error of the height", _number(data["height_error"], ".1e") or "not known"),
         ("height / radius", _number(data["height_over_radius"], ".6f")),
         ("pitch / diameter", _number(data["pitch_over_diameter"], ".6f")),
         ("energy / (E_f t R²)", _number(data["energy"], ".8f")),

@@ -16,6 +16,7 @@ from solver.scene import LoopScene
 from solver.shape import LoopShape
 from solver.stability import weakest_motion
 from solver.symmetry import ALIGNED, DIAGONAL
+from solver.tolerance import check_tolerance
 
 __all__ = ["DEGREES", "inextensional_saddle", "solve_loop"]
 
@@ -51,10 +52,13 @@ def solve_loop(
 
     Raises
     ------
+    SceneError
+        When the tolerance is not greater than 0 and finite.
     NotConvergedError
         When no basis meets the tolerance, when the shape is not a minimum among all shapes, or when
         the wire runs through itself. Lesser omissions are told in `Equilibrium.omitted`.
     """
+    check_tolerance(tolerance)
     if scene.isotropic_circle:
         found = _circle(scene, tolerance, start, highest_degree)
     else:

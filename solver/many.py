@@ -27,6 +27,7 @@ from solver.reading import Reading
 from solver.saddle_rows import crest_distance, crest_less_valley
 from solver.scene import LoopScene
 from solver.shape import from_expansion
+from solver.tolerance import check_tolerance
 
 Vectors = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -112,6 +113,7 @@ def solve_many(
     SceneError
         When a number is out of its range.
     """
+    check_tolerance(tolerance)
     listed = np.broadcast_arrays(
         *(np.asarray(value, float) for value in (strain, beta, poisson, axial_stiffness))
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sesame_cad.errors import InputError
+from sesame_cad.number_range import NumberRange
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -89,7 +90,7 @@ _GRID = re.compile(r"([1-9][0-9]{0,2})\s*[x×]\s*([1-9][0-9]{0,2})")
 )
 @click.option(
     "--tolerance",
-    type=click.FloatRange(1e-8, 0.5),
+    type=NumberRange(1e-8, 0.5),
     help="Relative error allowed in the height; 1e-4 unless given, 0.1 of arrays that need a mesh.",
 )
 @click.option(
@@ -146,8 +147,11 @@ def command(
             twist_ratio,
             alpha,
         )
-        scene = _scene(loop, loops, between)
-        solve = _solver(scene, fidelity, tolerance, contact)
+        rows, columns = _grid(loops)
+        if fidelity == "scaling" and _one_suffices(loop, rows, columns, between):
+            solve = _law(loop, tiled=rows * columns > 1)
+        else:
+            solve = _solver(_scene(loop, rows, columns, between), fidelity, tolerance, contact)
         with telling(quiet=as_json) as progress:
             progress("solving")
             start = perf_counter()
@@ -165,12 +169,31 @@ def command(
         print_answer(data)
 
 
-def _scene(loop: LoopScene, loops: str, between: str) -> LoopScene | ArrayScene:
-    """Give one loop, or the array that ``--loops`` names."""
+def _grid(loops: str) -> tuple[int, int]:
+    """Rows and columns that ``--loops`` names."""
     grid = _GRID.fullmatch(loops.strip())
     if grid is None:
         raise InputError(f"--loops: {loops!r} is not rows x columns, such as 3x3")
-    rows, columns = int(grid[1]), int(grid[2])
+    return int(grid[1]), int(grid[2])
+
+
+def _one_suffices(loop: LoopScene, rows: int, columns: int, between: str) -> bool:
+    """Whether one loop tells all: it is alone, or equal ones without fabric between them tile."""
+    fabric_between = between == "kept" and min(rows, columns) > 1
+    return rows * columns == 1 or (loop.isotropic_circle and not fabric_between)
+
+
+def _law(loop: LoopScene, *, tiled: bool) -> Callable[[], Answer]:
+    """Load no more than the scaling law, which knows one loop and so any number that tile."""
+    from functools import partial
+
+    from solver.ladder.law import ASKED, TILED, by_law
+
+    return partial(by_law, loop, f"{TILED}; {ASKED}" if tiled else ASKED)
+
+
+def _scene(loop: LoopScene, rows: int, columns: int, between: str) -> LoopScene | ArrayScene:
+    """Give one loop, or the array."""
     if rows * columns == 1:
         return loop
     from solver.mesh.array_mesh import Between
@@ -182,15 +205,9 @@ def _scene(loop: LoopScene, loops: str, between: str) -> LoopScene | ArrayScene:
 def _solver(
     scene: LoopScene | ArrayScene, fidelity: str, tolerance: float | None, contact: str
 ) -> Callable[[], Answer]:
-    """Load what the solve needs; the scaling law loads no more than itself."""
+    """Load what any solve may need."""
     from functools import partial
 
-    from solver.scene import LoopScene
-
-    if fidelity == "scaling" and isinstance(scene, LoopScene):
-        from solver.ladder.law import by_law
-
-        return partial(by_law, scene, "asked for")
     from solver.ladder.choose import prepare_tables, solve_scene, usual_tolerance
     from solver.ladder.contact import ContactChoice
     from solver.ladder.fidelity import Fidelity

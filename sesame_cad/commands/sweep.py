@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sesame_cad.errors import InputError
+from sesame_cad.number_range import NumberRange
 from sesame_cad.sweeps.fig_2 import FIG_2
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ INTERRUPTED = 130
 @click.option("--between", type=click.Choice(["cut", "kept"]), help="Fabric between them. [cut]")
 @click.option(
     "--tolerance",
-    type=click.FloatRange(1e-6, 0.1),
+    type=NumberRange(1e-6, 0.1),
     help="Relative error allowed in the height. [0.001; on a mesh 0.1]",
 )
 @click.option("--scheduler", help="Address of a Dask scheduler, such as tcp://10.0.0.1:8786.")

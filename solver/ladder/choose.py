@@ -17,12 +17,13 @@ from solver.ladder.answer import Answer, Rung
 from solver.ladder.contact import ContactChoice
 from solver.ladder.fabric_share import curved_fabric
 from solver.ladder.fidelity import Fidelity
-from solver.ladder.law import by_law, law_error
+from solver.ladder.law import ASKED, TILED, by_law, law_error
 from solver.ladder.meshed import TWIST_ADDED, by_mesh
 from solver.mesh.any_scene import MeshScene
 from solver.mesh.scene import ArrayScene, Contact
 from solver.mesh.sheet import SheetScene
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
+from solver.tolerance import check_tolerance
 
 _Mesh = Callable[..., Answer]
 """`by_mesh` with what holds for the whole solve."""
@@ -33,7 +34,6 @@ ARRAY_TOLERANCE = 0.1
 """The same of arrays whose loops act on each other: most meshes they can have err by more than a
 hundredth."""
 
-_ASKED = "asked for"
 _PART_OF_TOLERANCE = 0.3
 _CHEAPEST = "a smooth basis is the cheapest that meets the tolerance for one loop"
 
@@ -76,10 +76,12 @@ def solve_scene(
     Raises
     ------
     SceneError
-        When the rung cannot do the scene; the message names the one that can.
+        When the rung cannot do the scene, the message names the one that can; or when the tolerance
+        is not greater than 0 and finite.
     NotConvergedError
         When there is no shape to rely on.
     """
+    check_tolerance(tolerance)
     mesh = partial(
         by_mesh, lenient=allow_unreliable, refinement=refinement, told=told, contact=contact
     )
@@ -94,11 +96,11 @@ def _solve_loop(
     scene: LoopScene, fidelity: Fidelity, tolerance: float, mesh: _Mesh, *, lenient: bool
 ) -> Answer:
     if fidelity is Fidelity.SCALING:
-        return by_law(scene, _ASKED)
+        return by_law(scene, ASKED)
     if fidelity is Fidelity.MESH:
-        return mesh(scene, _ASKED, tolerance)
+        return mesh(scene, ASKED, tolerance)
     if fidelity is Fidelity.COMPACT:
-        return _by_compact(scene, _ASKED, tolerance, lenient=lenient)
+        return _by_compact(scene, ASKED, tolerance, lenient=lenient)
     return _by_cheapest(scene, tolerance, mesh, lenient=lenient)
 
 
@@ -195,13 +197,11 @@ def _solve_array(
             twist_ratio=wire.twist_ratio,
         )
         one = _solve_loop(loop, fidelity, tolerance, mesh, lenient=lenient)
-        return replace(
-            one, reason=f"equal loops without fabric between them tile: one is solved; {one.reason}"
-        )
+        return replace(one, reason=f"{TILED}; {one.reason}")
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
         raise SceneError(f"these loops do not tile; {fidelity} solves one loop, mesh solves arrays")
     if fidelity is Fidelity.MESH:
-        return mesh(scene, _ASKED, tolerance)
+        return mesh(scene, ASKED, tolerance)
     reason = "the loops of this array act on each other"
     return mesh(scene, reason, tolerance, add_twist=True)
 
@@ -210,6 +210,6 @@ def _solve_sheet(scene: SheetScene, fidelity: Fidelity, tolerance: float, solve:
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):
         raise SceneError(f"{fidelity} solves one loop of its own; mesh solves any scene")
     if fidelity is Fidelity.MESH:
-        return solve(scene, _ASKED, tolerance)
+        return solve(scene, ASKED, tolerance)
     reason = "only a mesh knows scenes of many curves"
     return solve(scene, reason, tolerance, add_twist=True)

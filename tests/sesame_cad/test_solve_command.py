@@ -1,4 +1,6 @@
 import json
+import subprocess
+import sys
 
 import pytest
 from click.testing import CliRunner
@@ -80,6 +82,44 @@ def test_every_rung_gives_the_same_keys():
         keys.append(set(data) - {"kind", "loop_heights_over_radius", "triangles"})
     assert keys[0] | {"compressed_fraction"} == keys[1] | {"compressed_fraction"}
     assert keys[1] | {"compressed_fraction"} == keys[2]
+
+
+def test_an_error_that_is_not_known_is_told():
+    slack = ["solve", "--strain", "0.3", "--beta", "1e-6", "--poisson", "0.3"]
+    run = CliRunner().invoke(cli, [*slack, "--fidelity", "scaling"])
+    (line,) = (line for line in run.stdout.splitlines() if "error of the height" in line)
+    assert line.split("height")[1].strip() == "not known"
+    assert "warning, left out: slack fabric" in run.stdout
+    data = json.loads(CliRunner().invoke(cli, [*slack, "--fidelity", "scaling", "--json"]).stdout)
+    assert data["height_error"] is None
+    assert data["status"] == "not compared"
+
+
+@pytest.mark.parametrize("loops", [("1x1", "cut"), ("2x2", "cut"), ("1x3", "kept")])
+def test_the_law_loads_neither_meshes_nor_sparse_matrices(loops):
+    arguments = [*LOOP, "--fidelity", "scaling", "--loops", loops[0], "--between", loops[1]]
+    program = (
+        "import sys\n"
+        "from sesame_cad.cli import cli\n"
+        f"cli({[*arguments, '--json']!r}, standalone_mode=False)\n"
+        "print([m for m in sys.modules if m.startswith(('scipy.sparse', 'solver.mesh'))])\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    *answer, modules = run.stdout.strip().splitlines()
+    assert modules == "[]"
+    data = json.loads("\n".join(answer))
+    assert ("tile" in data["reason"]) == (loops[0] != "1x1")
+    alone = json.loads(_run("--fidelity", "scaling", "--json").stdout)
+    assert data["height_over_perimeter"] == alone["height_over_perimeter"]
+
+
+@pytest.mark.parametrize("tolerance", ["nan", "-1", "inf"])
+@pytest.mark.parametrize("fidelity", ["scaling", "auto"])
+def test_a_tolerance_that_cannot_be(tolerance, fidelity, faults_of_command):
+    (fault,) = faults_of_command([*LOOP, "--fidelity", fidelity, "--tolerance", tolerance])
+    assert fault.startswith("error: --tolerance: ")
 
 
 def test_arrays_and_ellipses():

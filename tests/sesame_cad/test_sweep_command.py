@@ -127,6 +127,7 @@ def test_an_array_that_cannot_be_solved_says_so(monkeypatch):
         (["--strain", "0:1:2000", "--beta", "0.1:1:2000"], "4000000 points"),
         (["--set", "wire.diameter_mm=1"], "--set and --state are keys of a specification"),
         (["--loops", "0x3"], "--loops: '0x3'"),
+        (["--tolerance", "nan"], "--tolerance: 'nan' must be a number"),
         (["--workers", "2", "--scheduler", "tcp://localhost:1"], "--workers starts processes"),
     ],
 )

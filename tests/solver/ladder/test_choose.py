@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from solver.checks import GAUSS, TWIST
+from solver.compact import solve_loop
 from solver.equilibrium import Kind
 from solver.errors import NotConvergedError, SceneError
 from solver.ladder.answer import Rung
@@ -14,6 +15,7 @@ from solver.ladder.choose import solve_scene
 from solver.ladder.fabric_share import FABRIC_BENDING
 from solver.ladder.fidelity import Fidelity
 from solver.ladder.law import law_error
+from solver.many import solve_many
 from solver.mesh.array_mesh import Between
 from solver.mesh.curve import circle, line
 from solver.mesh.rod_energy import WireStiffness
@@ -31,6 +33,38 @@ def test_auto_takes_the_law_only_within_its_error():
     assert 0 < error < 0.2
     assert solve_scene(LOOP, tolerance=1.01 * error).rung is Rung.SCALING
     assert solve_scene(LOOP, tolerance=0.99 * error).rung is Rung.COMPACT
+
+
+@pytest.mark.parametrize(("stiffness", "tolerance"), [(1.0, 0.2), (0.01, 0.1), (10.0, 0.1)])
+def test_auto_knows_that_a_soft_wire_shortens(stiffness, tolerance):
+    scene = replace(LOOP, axial_stiffness=stiffness)
+    exact = solve_scene(scene, fidelity=Fidelity.COMPACT)
+    answer = solve_scene(scene, tolerance=tolerance)
+    assert answer.buckled == exact.buckled
+    height = exact.height_over_perimeter
+    assert answer.height_over_perimeter == pytest.approx(height, rel=tolerance)
+
+
+def test_auto_goes_on_where_the_law_finds_fabric_that_may_be_slack():
+    slack, taut = (LoopScene(0.45, b, 0.45, Reading.PUBLISHED) for b in (0.02, 0.1))
+    assert law_error(slack) == float("inf")
+    assert 0 < law_error(taut) < 0.05
+    (left,) = (
+        o for o in solve_scene(slack, fidelity=Fidelity.SCALING).omitted if "slack" in o.term
+    )
+    assert left.matters
+    assert left.value > 1
+
+
+@pytest.mark.parametrize("tolerance", [float("nan"), -1.0, 0.0, float("inf")])
+def test_a_tolerance_is_a_finite_number_above_0(tolerance):
+    for fidelity in Fidelity:
+        with pytest.raises(SceneError, match="tolerance"):
+            solve_scene(LOOP, fidelity=fidelity, tolerance=tolerance)
+    with pytest.raises(SceneError, match="tolerance"):
+        solve_loop(LOOP, tolerance=tolerance)
+    with pytest.raises(SceneError, match="tolerance"):
+        solve_many(0.3, 0.0145, 0.3, tolerance=tolerance)
 
 
 def test_the_law_is_not_trusted_where_it_was_not_compared():
