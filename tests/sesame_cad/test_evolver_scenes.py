@@ -18,7 +18,6 @@ from sesame_cad.files.evolver_wires import EvolverWires
 from sesame_cad.specification import specification_from
 from solver.compact import solve_loop
 from solver.mesh.curve import Through, circle, line
-from solver.mesh.plane_mesh import Between
 from solver.mesh.rod_energy import WireStiffness
 from solver.mesh.scene import Contact
 from solver.mesh.sheet import Joint, SheetScene, SheetWire
