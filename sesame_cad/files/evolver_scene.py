@@ -128,6 +128,12 @@ def scene_faults(scene: EvolverScene) -> list[str]:
             (f"twist_ratio = {rho:g}", "wire without twist", rho == 0)
             for rho in sorted({wire.twist_ratio for wire in own})
         ),
+        # Evolver's stars about vertices of a wire with fabric on both sides run away
+        (
+            f"alpha = {loop.alpha:g}",
+            "arrays of fabric without bending stiffness",
+            loop.alpha == 0 or len(own) == 1,
+        ),
         ("a wire with two ends", "loops", all(curve.closed for curve in curves)),
         (
             "a wire along a free curve",

@@ -262,6 +262,7 @@ def test_only_scenes_with_contacts_speak_of_them():
         (lambda: SheetScene(SCENE, (SheetWire(Through(ROUND, True), WIRES[0]),)), 1, "free curve"),
         (lambda: SheetScene(SCENE, (SheetWire(line((0, 0), (2, 0)), WIRES[0]),)), 1, "two ends"),
         (lambda: bare().twisted(0.7), 1, "without twist"),
+        (lambda: replace(bare(), loop=replace(SCENE, alpha=0.1)), 1, "alpha = 0.1: "),
     ],
 )
 def test_what_a_datafile_cannot_say_is_refused(scene, refinements, named):
@@ -298,3 +299,13 @@ def test_an_ellipse_of_options(run_command, tmp_path):
     arguments = ["--strain", "0.3", "--beta", "0.0145", "--poisson", "0.3", "--axis-ratio", "2"]
     assert run_command(["export-evolver", *arguments, "-o", str(target)])[0] == 0
     assert target.read_text() == evolver_datafile(LoopScene(0.3, 0.0145, 0.3, axis_ratio=2), 2)
+
+
+@pytest.mark.parametrize("name", ["ellipse", "ellipse of options"])
+def test_an_ellipse_starts_as_the_saddle_between_its_axes(name):
+    """The saddle along its axes is a stationary point, but no minimum."""
+    x, y, z = drawn(SCENES[name](), 2, 0.05).positions.T
+    top = np.argmax(z)
+    assert x[top] * y[top] > 0.3
+    assert z.max() == pytest.approx(-z.min(), rel=1e-6)
+    assert np.abs(z[np.abs(x * y) < 1e-9]).max() < 1e-9
