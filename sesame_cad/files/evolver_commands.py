@@ -19,8 +19,8 @@ HEAD = """\
 """
 
 SEVERAL_WIRES = """\
-// Both are the first wire's. Where others differ, bend_share_0 (1, 2 ...) at the vertices and
-// stretch_share at the edges say how many times theirs is as large.
+// wire_bending and wire_stiffness are the first wire's. Each wire's own are bend_share_0 (1, 2 ...)
+// times that at its vertices, and stretch_share times that along its edges.
 """
 
 TOUCHING = """\
