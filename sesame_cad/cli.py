@@ -24,7 +24,7 @@ COMMANDS = MappingProxyType(
         "sweep": "Solve a grid of loops or of designs: table and phase diagram.",
         "scale": "Find the loop of another wire that takes the same shape.",
         "fit": "Find loops and wires that reach a wanted height, stroke, pitch or force.",
-        "export-evolver": "Write a loop as a datafile of Surface Evolver.",
+        "export-evolver": "Write loops as a datafile of Surface Evolver.",
         "machines": "List machine profiles, or print one to start your own from.",
         "coupon": "Make a coupon to find the settings for your wire.",
         "schema": "Print the JSON schema of specifications, for editors.",

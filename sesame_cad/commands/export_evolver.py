@@ -1,4 +1,4 @@
-"""``sesame-cad export-evolver``: a loop as a datafile of Surface Evolver."""
+"""``sesame-cad export-evolver``: loops as a datafile of Surface Evolver."""
 
 from __future__ import annotations
 
@@ -10,7 +10,14 @@ import click
 from sesame_cad.errors import InputError
 
 if TYPE_CHECKING:
+    from sesame_cad.files.evolver_scene import EvolverScene
+    from sesame_cad.specification import Specification
     from solver.scene import LoopScene
+
+HINGED = (
+    "wires that touch share the point but may turn about it: Surface Evolver has no bond that "
+    "keeps them side by side"
+)
 
 
 @click.command("export-evolver")
@@ -35,11 +42,16 @@ if TYPE_CHECKING:
     "--alpha", type=float, help="Bending stiffness of the fabric, t²/(6R²(1−ν²)). [default: 0]"
 )
 @click.option(
+    "--axis-ratio",
+    type=float,
+    help="Length of an ellipse over its width, its perimeter kept, 1 to 10. [default: 1]",
+)
+@click.option(
     "--refinements",
     type=int,
     default=2,
     show_default=True,
-    help="How often each of 20 triangles is split in four, 1 to 5.",
+    help="How often each triangle of the coarsest mesh (20 in a circle) is split in four, 1 to 5.",
 )
 @click.option(
     "--output",
@@ -56,22 +68,31 @@ def command(
     quiet: bool,
     **loop: float | str | None,
 ) -> None:
-    """Write a loop of SPEC, a TOML file, or of the options alone for Surface Evolver 2.70.
+    """Write SPEC, a TOML file, or the loop of the options alone for Surface Evolver 2.70.
+
+    All loops of SPEC are written, or one if it stands for all: circles in a grid or row whose
+    fabric in between is cut away take the same shape side by side. layout.shape = "coupled" writes
+    all of those, too. Circles and ellipses, fabric cut or kept, and circuits of different wires can
+    be written, sleeves can not. Wires that touch share a point and may turn about it, as Surface
+    Evolver has no bond that keeps them side by side.
 
     In Surface Evolver, `solve` finds the shape, and `report` prints its height and its energies in
-    units of E_f t R². A file that exists is left as it is.
+    units of E_f t R², R being the radius of the largest loop (of an ellipse, that of the circle of
+    its perimeter). A file that exists is left as it is.
     """
     given = {key: value for key, value in loop.items() if value is not None}
     if spec is None:
         _refuse_state(state)
-        name, scene = "loop", _scene_of_options(given)
+        name, scene, notes = "loop", _scene_of_options(given), ()
     else:
         _refuse_options(given)
-        name, scene = _scene_of_file(spec, state or "cold")
+        name, scene, notes = _scene_of_file(spec, state or "cold")
     target = output or Path(f"{name}.fe")
     _write(target, scene, refinements)
     if not quiet:
         click.echo(f"wrote {target}; next: evolver {target}, and type solve at its prompt")
+        for note in notes:
+            click.echo(note)
 
 
 def _refuse_state(state: str | None) -> None:
@@ -101,21 +122,31 @@ def _scene_of_options(given: dict[str, float | str]) -> LoopScene:
         raise InputError(str(error)) from None
 
 
-def _scene_of_file(spec: Path, state: str) -> tuple[str, LoopScene]:
-    """Give the loop of a specification, and a name for its file."""
+def _scene_of_file(spec: Path, state: str) -> tuple[str, EvolverScene, tuple[str, ...]]:
+    """Give the scene of a specification, a name for its file, and what to know of it."""
+    from sesame_cad.evolver_scene import specified_scene
     from sesame_cad.specification import load_specification
-    from sesame_cad.state import loop_materials, loop_scene
-    from solver.errors import SceneError
 
     read = load_specification(spec)
-    modulus = read.wire.modulus_cold_GPa if state == "cold" else read.wire.modulus_hot_GPa
-    try:
-        return f"{read.name}-{state}", loop_scene(read, loop_materials(read, modulus))
-    except SceneError as error:
-        raise InputError(f"{read.name}: {error}") from None
+    scene = specified_scene(read, state)
+    return f"{read.name}-{state}", scene, _notes(read, scene)
 
 
-def _write(target: Path, scene: LoopScene, refinements: int) -> None:
+def _notes(spec: Specification, scene: EvolverScene) -> tuple[str, ...]:
+    from solver.scene import LoopScene
+
+    unit_mm = spec.layout.diameter_mm / 2
+    if isinstance(scene, LoopScene):
+        count = spec.layout.count
+        alone = (
+            f"one loop stands for all {count}, whose shapes fit side by side; "
+            'layout.shape = "coupled" writes all'
+        )
+        return (f"R = {unit_mm:g} mm", *([alone] if count > 1 else []))
+    return (f"R = {unit_mm:g} mm, loops: {len(scene.wires)}", *([HINGED] if scene.joints else []))
+
+
+def _write(target: Path, scene: EvolverScene, refinements: int) -> None:
     from sesame_cad.files.evolver import evolver_datafile
     from sesame_cad.staging import write_new_file
 

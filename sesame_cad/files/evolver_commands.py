@@ -1,14 +1,15 @@
 """What a Surface Evolver datafile of a loop says besides its mesh."""
 
 HEAD = """\
-// A SESAME: one loop of wire on fabric that was stretched when the wire was sewn on.
+// A SESAME: {loops} of wire on fabric that was stretched when the wire was sewn on.
 // For Surface Evolver 2.70. Run evolver with this file, then type at its prompt:
 //     solve     finds the shape and prints it
 //     report    prints height and energies of the present shape
 // To try another wire, set wire_bending or wire_stiffness (below) at the prompt and solve again.
 //
-// Lengths are in units of R, the radius of the flat loop; energies in units of E_f t R^2, with
-// E_f the fabric's modulus and t its thickness. For millimetres and millijoules multiply by these.
+// Lengths are in units of R; the loops' mean length, flat, is 2 pi R times {size}. Energies are
+// in units of E_f t R^2, with E_f the fabric's modulus and t its thickness. For millimetres and
+// millijoules multiply by these.
 //
 //     strain            {strain}, of the fabric in the hoop
 //     poisson           {poisson}, of the fabric ({reading} reading)
@@ -17,13 +18,24 @@ HEAD = """\
 //     triangles         {triangles}
 """
 
+SEVERAL_WIRES = """\
+// wire_bending and wire_stiffness are the first wire's. Each wire's own are bend_share_0 (1, 2 ...)
+// times that at its vertices, and stretch_share times that along its edges.
+"""
+
+TOUCHING = """\
+// Wires that touch share the point of contact, but may turn about it: Evolver has no bond that
+// keeps their tangents parallel. Sewn side by side they cannot, so that real shapes have more
+// energy.
+"""
+
 DECLARATIONS = """\
 parameter wire_bending = {beta}              // beta
 parameter wire_stiffness = {axial_stiffness}     // axial_stiffness
 
 define vertex attribute on_wire integer
 define edge attribute hooke_size real                // length of the unstretched edge / R
-define edge attribute sqcurve_string_mark integer    // 1: an edge of the wire
+define edge attribute sqcurve_string_mark integer    // not 0: an edge of a wire
 define facet attribute poisson_ratio real
 define facet attribute form_factors real[3]          // u.u, u.v, v.v of the unstretched sides
 
@@ -35,19 +47,27 @@ quantity fabric energy modulus {modulus} method linear_elastic global
 
 // Bending of the wire: modulus * turn^2 / (half the length of both edges) at each vertex on it.
 // The plain sqcurve_string would take two edges of the fabric; the mark tells which are the wire's.
-quantity bend energy modulus wire_bending method sqcurve_string_marked
-
+// Where wires touch, each has a bit of the mark for itself.
 // Stretch of the wire: modulus/2 * (length - hooke_size)^2 / hooke_size for each edge of it.
-quantity stretch energy modulus wire_stiffness method hooke3_energy
+"""
 
-// Pins against drifting and turning: x = y = 0 in the middle, y = 0 at one vertex, z = 0 at three.
-// They are as few as rigid motions, so that they hold no force and change neither shape nor energy.
-constraint 1
-formula: z = 0
-constraint 2
-formula: x = 0
-constraint 3
-formula: y = 0
+BEND_SHARE = "define vertex attribute bend_share_{0} real\n"
+STRETCH_SHARE = "define edge attribute stretch_share real\n"
+BEND = "quantity bend energy modulus wire_bending method sqcurve_string_marked{share}\n"
+BEND_SOME = "method_instance bend_{0} method sqcurve_string_marked{share} parameter_2: {bit}\n"
+STRETCH = "quantity stretch energy modulus wire_stiffness method hooke3_energy{share}\n"
+
+PINS = """\
+// Pins against drifting and turning, as few as the motions that cost nothing, so that they hold no
+// force and change neither shape nor energy.
+"""
+
+LEVELLING = """\
+// Loops that hang together by points alone are free to hinge there. Of all those shapes, springs
+// that are too weak to bend a loop pick one near the plane: pull/2 * z^2 at each vertex.
+define vertex attribute pull real
+quantity levelling energy modulus 0.5 method vertex_scalar_integral element_modulus pull global
+scalar_integrand: z^2
 """
 
 BENDING_FABRIC = """\
@@ -55,8 +75,21 @@ parameter fabric_stiffness = {alpha}         // alpha
 
 // Bending of the fabric: modulus times the integral of H^2 over the surface, H = (k1 + k2)/2, from
 // the stars of the inner vertices. At the fabric's edge, free to turn about its wire, H is 0. The
-// plain sq_mean_curvature has no Hessian. Type print fabric_bend.value for its energy.
+// plain sq_mean_curvature has no Hessian.
 quantity fabric_bend energy modulus fabric_stiffness method star_perp_sq_mean_curvature
+"""
+
+FURTHER = "  // further terms\n"
+"""Where the report prints the energies of quantities that not every datafile has."""
+
+FURTHER_TERM = '  printf "energy_{name} %.10g\\n", {quantity}.value;\n'
+
+FURTHER_ADVICE = "    // further advice\n"
+"""Where the verdict tells why there may be no minimum but for slack fabric."""
+
+HINGE_ADVICE = """\
+    printf "  loops that touch in points turn there at next to no cost: the energy is known to\\n";
+    printf "  a few digits, the height is one of many\\n";
 """
 
 COMMANDS = """
@@ -111,6 +144,7 @@ verdict := {
     printf "NOT converged after %d steps: relative change of energy %g, ways down %d\\n",
       step_count, change, negatives;
     printf "  slack fabric wrinkles as finely as its mesh: fewer refinements, or a larger beta\\n";
+    // further advice
   };
 }
 
@@ -128,6 +162,7 @@ report := {
   printf "energy_fabric %.10g\\n", fabric.value;
   printf "energy_wire_bending %.10g\\n", bend.value;
   printf "energy_wire_stretch %.10g\\n", stretch.value;
+  // further terms
 }
 
 solve := {

@@ -16,7 +16,8 @@ from solver.mesh.triangulation import Mesh, embedded
 Vectors = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_AMPLITUDE = 0.1
+AMPLITUDE = 0.1
+"""Height of a start's crests over its loop's mean radius."""
 _NOISE = 1e-3
 """Breaks the symmetry of a start that lies on a ridge, in units of R."""
 
@@ -52,7 +53,7 @@ def _saddle_heights(mesh: Mesh, crests: Vectors) -> tuple[Indices, Vectors]:
         radius = np.sqrt(abs(area(mesh.points, wire.vertices)) / np.pi)
         x, y = arms.T / radius
         own = np.cos(2 * crest) * (x * x - y * y) + np.sin(2 * crest) * 2 * x * y
-        heights[wire.vertices] += _AMPLITUDE * radius * own
+        heights[wire.vertices] += AMPLITUDE * radius * own
         shares[wire.vertices] += 1
     on = np.flatnonzero(shares)
     return on, heights[on] / shares[on]
@@ -79,6 +80,14 @@ def _spread(mesh: Mesh, fixed: Indices, heights: Vectors) -> Vectors:
     return out
 
 
+def saddle_lifts(mesh: Mesh, crests: Vectors) -> Vectors:
+    """Heights (n,) of a mesh whose closed wires are saddles with crests at angles (w,).
+
+    A saddle rises by a tenth of its loop's mean radius. Angles are in radians.
+    """
+    return _spread(mesh, *_saddle_heights(mesh, crests))
+
+
 def sheet_starts(scene: SheetScene, mesh: Mesh, count: int) -> Iterator[Vectors]:
     """Positions (n, 3) from which to go downhill, the likeliest first.
 
@@ -91,5 +100,5 @@ def sheet_starts(scene: SheetScene, mesh: Mesh, count: int) -> Iterator[Vectors]
         own = rng.uniform(0, np.pi, len(mesh.wires))
         crests = np.full(len(mesh.wires), fits + k * np.pi / 4) if k < 2 else own
         positions = embedded(mesh.points)
-        positions[:, 2] = _spread(mesh, *_saddle_heights(mesh, crests))
+        positions[:, 2] = saddle_lifts(mesh, crests)
         yield positions + _NOISE * rng.normal(size=positions.shape)
