@@ -234,7 +234,7 @@ def _twist_left_out(
 def gauss_left_out(
     alpha: float, poisson: float, curved: float, energy: float
 ) -> tuple[OmittedTerm, ...]:
-    """What a plate would have besides α ∫ H² dA, from ∫ K dA; see `solver.fabric_bending`."""
+    """What a plate would have besides α ∫ H² dA, from ∫ K dA: docs/theory.md, eq. (15)."""
     if alpha == 0:
         return ()
     share = abs((1 - poisson) * alpha / 2 * curved) / energy

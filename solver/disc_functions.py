@@ -20,7 +20,10 @@ Trig = Literal["cos", "sin"]
 
 @dataclass(frozen=True, slots=True)
 class DiscFunction:
-    """One function; ``m`` ≥ 0 waves around the disc, ``k`` ≥ 0 zeros along the radius."""
+    """One function; ``m`` ≥ 0 waves around the disc, ``k`` ≥ 0 zeros along the radius.
+
+    That of docs/theory.md, eq. (7), or its sine.
+    """
 
     m: int
     k: int

@@ -12,7 +12,7 @@ A surface with x_u, x_v, x_uu, x_uv and x_vv has, in any parameters,
     H = p/(2 W³),  p = G x_uu·N − 2F x_uv·N + E x_vv·N,  N = x_u × x_v,  W = |N|,
 
 with E, F and G its first fundamental form (do Carmo, Differential Geometry, section 3.3), so that
-H² dA = p²/(4 W⁵) du dv: equation (13) of docs/theory.md, which tells what α does.
+H² dA = p²/(4 W⁵) du dv: docs/theory.md, eq. (13); the section there tells what α does.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def _density(values: Vectors) -> tuple[Vectors, Vectors, Vectors]:
 
 @dataclass(frozen=True)
 class FabricBending:
-    """Fabric that resists mean curvature.
+    """Fabric that resists mean curvature (docs/theory.md, eq. (13)).
 
     Attributes
     ----------
@@ -174,6 +174,6 @@ def finest_wrinkle(stress: float, alpha: float) -> float:
 
 
 def gauss_integral(jet: Vectors, area: Vectors) -> float:
-    """∫ K dA of the Gaussian curvature over points with derivatives (P, 5, 3), weights (P,)."""
+    """∫ K dA (docs/theory.md, eq. (15)) over points with derivatives (P, 5, 3), weights (P,)."""
     e, f, g, along, mixed, across = _forms(jet).values.T
     return float(area @ ((along * across - mixed**2) / (e * g - f * f) ** 1.5))

@@ -47,7 +47,7 @@ class LoopEnergy:
     bending: FabricBending | None = None
 
     def terms(self, q: Vectors) -> dict[str, float]:
-        """Energy by term, units of E_f t R², at unknowns ``q`` (n,)."""
+        """Energy by term, units of E_f t R², at unknowns ``q`` (n,): docs/theory.md, eq. (1)."""
         basis = self.basis
         edge = basis.along_edge(q)
         bending, stretch = self.rod.energies(edge[:, :3], edge[:, 3:], basis.arc, self.speed)

@@ -41,7 +41,10 @@ class LoopMaterials:
 
     @property
     def beta(self) -> float:
-        """β = E_w I_w / (2 E_f t R³) with I_w = π r_w⁴/4 (Eq. 4 of the SESAME paper, L = R)."""
+        """β = E_w I_w / (2 E_f t R³) with I_w = π r_w⁴/4 (Eq. 4 of the SESAME paper, L = R).
+
+        See docs/theory.md, eq. (2).
+        """
         second_moment = math.pi * (self.wire_diameter_m / 2) ** 4 / 4
         return self.wire_modulus_Pa * second_moment / (2 * self.energy_unit_J * self.loop_radius_m)
 

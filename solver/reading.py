@@ -39,7 +39,8 @@ def check_poisson(poisson: float, reading: Reading) -> None:
 def density_coefficients(poisson: float, reading: Reading) -> tuple[float, float]:
     """Coefficients (a, b) of w = a Tr(E²) + b (Tr E)², in units of E_f.
 
-    Plane stress: a = 1/(2(1+ν)), b = a ν/(1−ν). Published (Eq. 2): a = 1/(1+ν), b = a ν/(1−2ν).
+    Plane stress: a = 1/(2(1+ν)), b = a ν/(1−ν) (docs/theory.md, eq. (3)). Published, Eq. 2 of the
+    paper: a = 1/(1+ν), b = a ν/(1−2ν) (docs/theory.md, eq. (4)).
     """
     check_poisson(poisson, reading)
     if reading is Reading.PLANE_STRESS:

@@ -23,6 +23,7 @@ class Rod:
 
     Bending energy β ∮ (κ − κ0)² dl and stretch energy (k/2) ∮ (λ − 1)² ds, λ = |x'|/speed. The wire
     is free to turn about its own axis, so that its natural curvature κ0 points where κ does.
+    κ is the exact curvature of the curve: docs/theory.md, eq. (8).
 
     Numbers may be arrays (B, 1), one for each of many wires.
     """

@@ -13,9 +13,9 @@ _THICKEST = 0.5
 def round_diameter(beta: float, axial_stiffness: float, half_width: float) -> float:
     """Diameter of a round wire of one material, in the unit R of β and of the axial stiffness k.
 
-    β = E_w I/(2 E_f t R³) and k = E_w A/(E_f t R) with I/A = d²/16, so d/R = √(32 β/k). An axial
-    stiffness that is not a solid wire's may ask for more than a wire's thickness, which is cut off
-    at half the smaller half-width of its loop.
+    β = E_w I/(2 E_f t R³) and k = E_w A/(E_f t R) with I/A = d²/16, so d/R = √(32 β/k)
+    (docs/theory.md, eq. (10)). An axial stiffness that is not a solid wire's may ask for more than
+    a wire's thickness, which is cut off at half the smaller half-width of its loop.
     """
     return min(math.sqrt(32 * beta / axial_stiffness), _THICKEST * half_width)
 

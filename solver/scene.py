@@ -34,7 +34,8 @@ class LoopScene:
     The energy is U = ∫ w(E) dA0 + α ∫ H² dA + β ∮ (κ − κ0)² dl + (k/2) ∮ (λ − 1)² ds + 2π β ρ Wr²,
     with dA0 the unstretched and dA the deformed area, H the fabric's mean curvature, κ the wire's
     curvature, λ its stretch, k its axial stiffness and Wr the loop's writhe. Lengths are in units
-    of the radius R of the circle of the same perimeter, energies in units of E_f t R².
+    of the radius R of the circle of the same perimeter, energies in units of E_f t R²
+    (docs/theory.md, eq. (1)).
 
     Attributes
     ----------

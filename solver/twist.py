@@ -91,7 +91,7 @@ def _turn_of_tangent(edge: Vectors) -> Vectors:
 
 @dataclass(frozen=True)
 class WireTwist:
-    """A round wire that was laid flat without twist.
+    """A round wire that was laid flat without twist, of the energy of docs/theory.md, eq. (9).
 
     Attributes
     ----------

@@ -59,7 +59,7 @@ class Course:
 
 @dataclass(frozen=True)
 class Heating:
-    """A wire from one state on, at one current, which may be 0.
+    """A wire from one state on, at one current, which may be 0: docs/theory.md, eq. (23).
 
     Attributes
     ----------

@@ -37,8 +37,9 @@ class Transformation:
 
         ξ = max(ξ0, f_A(T))  when heated,   ξ = min(ξ0, f_M(T))  when cooled,
 
-    the play operator (Visintin, Differential Models of Hysteresis, 1994, ch. III). A wire that has
-    turned back on its way comes to the same state again, and a pause changes nothing.
+    the play operator (Visintin, Differential Models of Hysteresis, 1994, ch. III): docs/theory.md,
+    eq. (22). A wire that has turned back on its way comes to the same state again, and a pause
+    changes nothing.
 
     Attributes
     ----------

@@ -160,7 +160,8 @@ class SheetScene:
     def in_units_of(self, unit: float) -> SheetScene:
         """Give the same scene with lengths in a unit that is so many of the present one.
 
-        β goes with the third power of the unit, the axial stiffness with the first.
+        β goes with the third power of the unit, the axial stiffness with the first: docs/theory.md,
+        eq. (11).
         """
         shrink = 1 / unit
 

@@ -28,7 +28,7 @@ def agreed_direction(scene: SheetScene) -> float:
     Saddles z = r² cos 2(θ − φ) of equal φ meet at equal height wherever two loops touch, for
     opposite points are alike; their slopes along the edge are opposite, proportional to
     sin 2(θ − φ). The sum of its squares over the joints at directions θ is least where
-    4 φ is the argument of Σ exp 4iθ.
+    4 φ is the argument of Σ exp 4iθ (docs/theory.md, eq. (12)).
     """
     total = 0j
     for joint in scene.joints:

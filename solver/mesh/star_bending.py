@@ -29,7 +29,7 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class StarBending:
-    """Stars of a triangles each.
+    """Stars of a triangles each, with the energy of docs/theory.md, eq. (14).
 
     Attributes
     ----------

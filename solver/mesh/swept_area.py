@@ -38,7 +38,7 @@ class SweptArea:
         return x, np.sum(self.pole * np.cross(self.u, self.v), axis=1)
 
     def area(self) -> Vectors:
-        """Area (m,), from −2π to 2π."""
+        """Area (m,), from −2π to 2π, of each pair (docs/theory.md, eq. (16))."""
         x, y = self._x_and_y()
         return 2 * np.arctan2(y, x)
 

@@ -33,7 +33,7 @@ _TELLING_POINTS = 40
 
 @dataclass(frozen=True)
 class TwistEnergy:
-    """Twist of closed wires of n vertices each.
+    """Twist of closed wires of n vertices each (docs/theory.md, eq. (9), writhe by eq. (16)).
 
     Attributes
     ----------

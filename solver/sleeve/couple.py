@@ -64,7 +64,10 @@ class SleeveCouple:
 
     @property
     def bending_stiffness_N_m2(self) -> float:  # noqa: N802
-        """What the sleeve adds to the beam's bending stiffness, p (K o² − 2 F o o')."""
+        """What the sleeve adds to the beam's bending stiffness, p (K o² − 2 F o o').
+
+        That of docs/theory.md, eq. (19).
+        """
         slope = self.pitch_stiffness_N_m * self.arm_m - 2 * self.force_N * self.arm_slope
         return self.pressed.pitch_m * self.arm_m * slope
 
@@ -99,7 +102,8 @@ def sleeve_couple(
 def couple_on_curve(flat: SleeveCouple, seat: Seat, curvature_per_m: float) -> float:
     """Couple M(κ) in N m of a sleeve on a bent beam, without small curvatures assumed.
 
-    A sleeve that is lengthened past its free pitch comes off its hooks, and has no couple.
+    That of docs/theory.md, eq. (18). A sleeve that is lengthened past its free pitch comes off its
+    hooks, and has no couple.
 
     Parameters
     ----------

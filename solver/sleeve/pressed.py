@@ -43,7 +43,7 @@ class PressedLoop:
 
     @property
     def force_N(self) -> float:  # noqa: N802 - the units' own names
-        """Push along the beam, −dU/dpitch; less than 0 where the bonds pull."""
+        """Push along the beam, −dU/dpitch (docs/theory.md, eq. (17)); < 0 where the bonds pull."""
         return self.held.force * self.cell.materials.force_unit_N
 
     @property

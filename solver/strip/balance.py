@@ -48,7 +48,7 @@ class Balance:
     held: Vectors
 
     def energy(self, x: Vectors, couple: float) -> float:
-        """U of unknowns (n,)."""
+        """U of unknowns (n,): docs/theory.md, eq. (20), one couple being that of both sleeves."""
         return float(x @ self.basis.stiffness @ x) / 2 - couple * float(self.basis.turn @ x)
 
     def conditions(self, x: Vectors) -> tuple[Vectors, Vectors]:

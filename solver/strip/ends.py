@@ -29,7 +29,10 @@ def second_clamped_load() -> float:
 
 
 def buckling_loads(ends: Ends) -> tuple[float, float]:
-    """P of the first two modes of the nearly straight strip, in units of EI/L²."""
+    """P of the first two modes of the nearly straight strip, in units of EI/L².
+
+    The barrier between its states is their difference times δ: docs/theory.md, eq. (21).
+    """
     if ends is Ends.PINNED:
         return np.pi**2, 4 * np.pi**2
     return 4 * np.pi**2, second_clamped_load() ** 2
