@@ -141,8 +141,6 @@ def _by_compact_or_mesh(
     slack = _matters(smooth, SLACK)
     if found is not None and found.status == "converged" and not slack:
         return smooth
-    if scene.modulus_ratio != 1:  # not known to the tension field
-        return _by_compact(scene, reason, tolerance, lenient=lenient)
     why = "the fabric is slack" if slack else "the smooth basis did not settle"
     added = "a mesh" if scene.alpha > 0 else "a mesh with a tension field"
     reason = f"{why}: {added} was added"

@@ -69,7 +69,7 @@ def by_mesh(
     """
     refinements = _refinements(scene, refinement)
     if contact is ContactChoice.AUTO and not lenient:
-        alone = partial(_solved, segments=SEGMENTS, field=False, lenient=True)
+        alone = partial(_solved, segments=SEGMENTS, field=False)
         refuse_what_meets_itself(scene, refinements[0], alone)
     found = _refined(
         scene, tolerance, refinements, told, contact, lenient=lenient, add_twist=add_twist
@@ -107,7 +107,7 @@ def _refined(
     segments = edges_of_a_loop(scene) if len(refinements) > 1 else SEGMENTS
     while True:
         told(f"mesh refined {refinement} times")
-        found = _solved(scene, refinement, segments=segments, field=field, lenient=lenient)
+        found = _solved(scene, refinement, segments=segments, field=field)
         field = found.tension_field
         found = contact.solved(found, refinement, lenient=lenient)
         # where a shape passes through itself its writhe jumps and tells nothing
@@ -141,15 +141,11 @@ def _slack_for_sure(scene: MeshScene) -> bool:
     if not isinstance(scene, ArrayScene) or scene.rows * scene.columns < _MANY_LOOPS:
         return False
     fabric = scene.loop
-    plain = fabric.modulus_ratio == 1 and fabric.alpha == 0 and fabric.strain > 0
-    return plain and scene.gaps_kept
+    return fabric.alpha == 0 and fabric.strain > 0 and scene.gaps_kept
 
 
-def _solved(
-    scene: MeshScene, refinement: int, *, segments: int, field: bool, lenient: bool
-) -> MeshEquilibrium:
+def _solved(scene: MeshScene, refinement: int, *, segments: int, field: bool) -> MeshEquilibrium:
     loop = fabric_of(scene)
-    knows_field = loop.modulus_ratio == 1
     if not field:
         # a plain solve that fails may be one that wrinkles: the tension field has its turn
         found = solve_on_mesh(
@@ -157,10 +153,10 @@ def _solved(
             refinement,
             segments=segments,
             tension_field=False,
-            allow_unreliable=lenient or knows_field,
+            allow_unreliable=True,
         )
         slack = loop.strain > 0 and wrinkles_escape(found)
-        if not (knows_field and (slack or found.status != "converged")):
+        if not slack and found.status == "converged":
             return found
     # and so may one be that meets itself: contact has its turn
     return solve_on_mesh(

@@ -143,3 +143,15 @@ def descend(
         asked = limits if finest else replace(limits, decrease=_NEARLY)
         found.append(solved_on(problem, k, start, backend, asked))
     return found
+
+
+def among_all(problem: MeshProblem, found: Solved, backend: str | None, most_steps: int) -> Solved:
+    """Go on, among all shapes, from a minimum on the finest mesh among mirrored ones.
+
+    Where the full Hessian has no way down either, this takes no step.
+    """
+    limits = SearchLimits(
+        gradient=gradient_limit(problem), steps=most_steps, before=found.minimum.way
+    )
+    whole, last = replace(problem, mirrored=False), len(problem.meshes) - 1
+    return solved_on(whole, last, found.minimum.positions, backend, limits)

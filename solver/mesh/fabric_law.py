@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -25,12 +26,11 @@ class FabricLaw(Protocol):
         """Second Piola–Kirchhoff stress (S₁₁, S₂₂, S₁₂), (m, 3), units of E_f."""
         ...
 
-    def root(self, strain: Vectors) -> Vectors:
-        """Matrices R, (m, r, 3) or (r, 3), with Rᵀ R the derivative of the stress."""
-        ...
+    def derivatives(self, strain: Vectors, *, steady: bool) -> tuple[Vectors, Vectors, Vectors]:
+        """Density, stress, and matrices R, (m, r, 3) or (r, 3), with Rᵀ R the stress's derivative.
 
-    def steady_root(self, strain: Vectors) -> Vectors:
-        """Like `root`, with some of the stiffness that comes back when the fabric is pulled."""
+        Steady ones have some of the stiffness that comes back when the fabric is pulled.
+        """
         ...
 
     def smallest_stress(self, strain: Vectors) -> Vectors:
@@ -40,6 +40,11 @@ class FabricLaw(Protocol):
     def compressed(self, strain: Vectors) -> Flags:
         """Whether the fabric is shorter than it would be by itself in some direction, (m,)."""
         ...
+
+
+def stored_energy(stress: Vectors, strain: Vectors) -> Vectors:
+    """½ S·E (m,): the energy density of a law that grows as the square of the strain."""
+    return np.sum(strain * stress, axis=1) / 2
 
 
 @dataclass(frozen=True)
@@ -54,21 +59,23 @@ class StVenantKirchhoff:
 
     stiffness: Vectors
 
+    @cached_property
+    def root(self) -> Vectors:
+        """R (3, 3) with Rᵀ R = C."""
+        return np.linalg.cholesky(self.stiffness).T.astype(np.float64, copy=False)
+
     def density(self, strain: Vectors) -> Vectors:
         """Energy (m,) over unstretched area."""
-        return np.sum(strain * self.stress(strain), axis=1) / 2
+        return stored_energy(self.stress(strain), strain)
 
     def stress(self, strain: Vectors) -> Vectors:
         """Second Piola–Kirchhoff stress (m, 3)."""
         return strain @ self.stiffness
 
-    def root(self, strain: Vectors) -> Vectors:
-        """Give one matrix (3, 3) for all points."""
-        return np.linalg.cholesky(self.stiffness).T.astype(np.float64, copy=False)
-
-    def steady_root(self, strain: Vectors) -> Vectors:
-        """Give the same: this fabric keeps its stiffness."""
-        return self.root(strain)
+    def derivatives(self, strain: Vectors, *, steady: bool) -> tuple[Vectors, Vectors, Vectors]:
+        """Density, stress and one root for all points: this fabric keeps its stiffness."""
+        stress = self.stress(strain)
+        return stored_energy(stress, strain), stress, self.root
 
     def smallest_stress(self, strain: Vectors) -> Vectors:
         """Smaller principal stress (m,)."""

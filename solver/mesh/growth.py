@@ -8,15 +8,13 @@ from dataclasses import dataclass
 from solver.mesh.array_mesh import Grid
 from solver.mesh.descent import (
     Solved,
+    among_all,
     descend,
-    gradient_limit,
     nearly_solved,
     roughly_solved,
-    solved_on,
 )
 from solver.mesh.grown_start import grown_start, smaller
 from solver.mesh.problem import MeshProblem
-from solver.mesh.search import SearchLimits
 from solver.mesh.start import array_start
 
 _ROUGHLY = 1e-5
@@ -84,7 +82,5 @@ def solved_by_growth(
         is one among all shapes.
     """
     grown = _grown(grid, problem_of, backend, most_steps)
-    finest = len(problem.meshes) - 1
-    found = grown.last[finest].minimum
-    limits = SearchLimits(gradient=gradient_limit(problem), steps=most_steps, before=found.way)
-    return [*grown.solved, solved_on(problem, finest, found.positions, backend, limits)]
+    mirrored = grown.last[len(problem.meshes) - 1]
+    return [*grown.solved, among_all(problem, mirrored, backend, most_steps)]

@@ -12,7 +12,7 @@ from solver.errors import SceneError
 from solver.flat import flat_radius
 from solver.mesh.account import account
 from solver.mesh.array_mesh import Grid
-from solver.mesh.descent import Solved, descend, roughly_solved
+from solver.mesh.descent import Solved, among_all, descend, roughly_solved
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.flatness import all_but_stable_flat, settled_flat
 from solver.mesh.growth import solved_by_growth
@@ -78,24 +78,41 @@ def solve_loop_mesh(
     NotConvergedError
         When no minimum is reached.
     SceneError
-        When the refinement is out of range, or a tension field is asked of fabric whose directions
-        are not alike.
+        When the refinement is out of range.
     """
     problem = loop_problem(scene, refinement, tension_field=tension_field, segments=segments)
     if start is not None:
         _check_start(problem, start)
         solved = descend(problem, refinement, start, backend, most_steps)
     else:
-        first = min(_COARSEST_LOOP, refinement)
-        radius = flat_radius(scene)
-        if scene.twist_ratio > 0 and not scene.isotropic_circle:
-            rough = rough_saddles(problem, first, radius, backend, _ROUGHLY)
-        else:
-            lifted = loop_start(problem.energy(first), problem.meshes[first], radius)
-            rough = [roughly_solved(problem, first, lifted, backend, _ROUGHLY)]
-        begun = rough[-1].minimum.positions
-        solved = [*rough, *descend(problem, first, begun, backend, most_steps)]
+        solved = _loop_from_flat(scene, problem, backend, most_steps)
     return account(scene, problem, solved, lenient=allow_unreliable)
+
+
+def _loop_from_flat(
+    scene: LoopScene, problem: MeshProblem, backend: str | None, most_steps: int
+) -> list[Solved]:
+    first = min(_COARSEST_LOOP, len(problem.meshes) - 1)
+    radius = flat_radius(scene)
+    if scene.twist_ratio > 0 and not scene.isotropic_circle:
+        rough = rough_saddles(problem, first, radius, backend, _ROUGHLY)
+        return [*rough, *descend(problem, first, rough[-1].minimum.positions, backend, most_steps)]
+    lifted = loop_start(problem.energy(first), problem.meshes[first], radius)
+    solved: list[Solved] = []
+    if scene.isotropic_circle:  # its crests lie on a mirror plane; an ellipse's do not
+        mirrored = replace(problem, mirrored=True)
+        solved = _descended(mirrored, first, lifted, backend, most_steps)
+        solved.append(among_all(problem, solved[-1], backend, most_steps))
+        if solved[-1].minimum.converged:
+            return solved
+    return [*solved, *_descended(problem, first, lifted, backend, most_steps)]
+
+
+def _descended(
+    problem: MeshProblem, first: int, start: Vectors, backend: str | None, most_steps: int
+) -> list[Solved]:
+    rough = roughly_solved(problem, first, start, backend, _ROUGHLY)
+    return [rough, *descend(problem, first, rough.minimum.positions, backend, most_steps)]
 
 
 def _grows(scene: ArrayScene) -> bool:

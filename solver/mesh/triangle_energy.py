@@ -80,12 +80,12 @@ class TriangleEnergy:
         """Energies (m,), gradients (m, 9) and Hessians (m, 9, 9)."""
         deformation = self._deformation(corners)
         strain = green_lagrange(deformation)
-        energies = self.areas * self.law.density(strain)
-        slope = self._strain_slope(deformation)
-        weighted = self.areas[:, None] * self.law.stress(strain)
-        gradients = (weighted[:, None, :] @ slope)[:, 0]
         steady = curvature is Curvature.STEADY
-        root = self.law.steady_root(strain) if steady else self.law.root(strain)
+        density, stress, root = self.law.derivatives(strain, steady=steady)
+        energies = self.areas * density
+        slope = self._strain_slope(deformation)
+        weighted = self.areas[:, None] * stress
+        gradients = (weighted[:, None, :] @ slope)[:, 0]
         # with a root of the stiffness, the material part is a Gram matrix
         scaled = (np.sqrt(self.areas)[:, None, None] * root) @ slope
         hessians = np.swapaxes(scaled, 1, 2) @ scaled

@@ -1,11 +1,11 @@
 """Fabric that wrinkles instead of bearing compression."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from solver.errors import SceneError
 from solver.loop_energy import scene_membrane
 from solver.mesh.array_mesh import Between
 from solver.mesh.elements import Curvature
@@ -21,8 +21,8 @@ from solver.scene import LoopScene
 LOOP = LoopScene(0.3, 0.0145, 0.3)
 
 
-def _stiffness(poisson):
-    return scene_membrane(LoopScene(0.3, 0.01, poisson)).stiffness
+def _stiffness(poisson, modulus_ratio=1.0):
+    return scene_membrane(LoopScene(0.3, 0.01, poisson, modulus_ratio=modulus_ratio)).stiffness
 
 
 def _strains(high, low):
@@ -53,7 +53,7 @@ def test_derivatives_of_the_density_in_every_region(region):
     slope = np.sum(law.stress(strain) * direction, axis=1)
     difference = (law.density(ahead) - law.density(behind)) / (2 * step)
     assert difference == pytest.approx(slope, abs=1e-8)
-    root = law.root(strain)
+    root = law.derivatives(strain, steady=False)[2]
     stiffness = np.swapaxes(root, 1, 2) @ root
     bent = (stiffness @ direction[:, :, None])[:, :, 0]
     difference = (law.stress(ahead) - law.stress(behind)) / (2 * step)
@@ -103,15 +103,17 @@ def test_it_never_costs_more_than_plain_fabric_and_bears_no_compression():
     assert values.min() > -1e-12
 
 
-def _crumpled(poisson=0.3):
+def _crumpled(modulus_ratio):
     mesh = refinements(loop_fan(), 1)[-1]
     noise = np.random.default_rng(5).normal(0, 0.1, (len(mesh.points), 3))
-    energy = triangle_energy(mesh, 0.3, _stiffness(poisson), tension_field=True)
+    stiffness = _stiffness(0.3, modulus_ratio)
+    energy = triangle_energy(mesh, 0.3, stiffness, tension_field=True)
     return energy, (0.75 * embedded(mesh.points) + noise)[mesh.triangles]
 
 
-def test_triangles_against_centred_differences():
-    energy, corners = _crumpled()
+@pytest.mark.parametrize("modulus_ratio", [1.0, 1.5])
+def test_triangles_against_centred_differences(modulus_ratio):
+    energy, corners = _crumpled(modulus_ratio)
     direction = np.random.default_rng(6).normal(size=corners.shape)
     step = 1e-7
     flat = direction.reshape(len(corners), -1)
@@ -125,9 +127,10 @@ def test_triangles_against_centred_differences():
     assert (ahead[1] - behind[1]) / (2 * step) == pytest.approx(bent, abs=1e-6)
 
 
-def test_it_is_convex_in_the_positions():
+@pytest.mark.parametrize("modulus_ratio", [1.0, 1.5])
+def test_it_is_convex_in_the_positions(modulus_ratio):
     """So no mesh can wrinkle at its own scale."""
-    energy, corners = _crumpled()
+    energy, corners = _crumpled(modulus_ratio)
     assert 0.2 < np.mean(energy.compressed(corners)) < 1
     true, steady = (energy.derivatives(corners, c)[2] for c in (Curvature.TRUE, Curvature.STEADY))
     assert np.linalg.eigvalsh(true).min() > -1e-12
@@ -135,21 +138,17 @@ def test_it_is_convex_in_the_positions():
     assert np.abs(steady - true).max() > 1e-3
 
 
-def test_orthotropic_fabric_is_refused():
-    with pytest.raises(SceneError, match="modulus_ratio"):
-        solve_loop_mesh(
-            LoopScene(0.3, 0.0145, 0.3, modulus_ratio=1.2), refinement=1, tension_field=True
-        )
-
-
-def test_taut_loops_are_as_without_it():
+# a solve ends where it would gain less than a millionth of the energy
+@pytest.mark.parametrize(("modulus_ratio", "near"), [(1.0, 1e-8), (1.2, 1e-6)])
+def test_taut_loops_are_as_without_it(modulus_ratio, near):
+    scene = replace(LOOP, modulus_ratio=modulus_ratio)
     plain, relaxed = (
-        solve_loop_mesh(LOOP, refinement=2, tension_field=field) for field in (False, True)
+        solve_loop_mesh(scene, refinement=2, tension_field=field) for field in (False, True)
     )
-    assert relaxed.energy == pytest.approx(plain.energy, rel=1e-8)
+    assert relaxed.energy == pytest.approx(plain.energy, rel=near)
     # the fabric turns under its saddle at next to no cost, which moves the height a little
     assert relaxed.height == pytest.approx(plain.height, rel=1e-4)
-    stays = solve_loop_mesh(LOOP, refinement=2, tension_field=True, start=plain.positions)
+    stays = solve_loop_mesh(scene, refinement=2, tension_field=True, start=plain.positions)
     assert stays.height == pytest.approx(plain.height, rel=1e-9)
     assert relaxed.compressed_fraction == 0
     assert "fabric stretch (tension field)" in relaxed.energy_terms
