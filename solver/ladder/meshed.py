@@ -219,9 +219,8 @@ def _way_down(found: MeshEquilibrium) -> str:
     if found.status != "converged" or not found.negative_eigenvalues:
         return ""
     return (
-        f"; {found.negative_eigenvalues} negative eigenvalues were left, the lowest about "
-        f"{min(0.0, found.lowest_eigenvalue):.1e} E_f t: the way down gains {found.way_down:.1e} "
-        "of the energy"
+        f"; {found.negative_eigenvalues} negative eigenvalues were left, for the way down gains "
+        f"{found.way_down:.1e} of the energy"
     )
 
 
