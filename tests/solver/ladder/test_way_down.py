@@ -8,7 +8,6 @@ from solver.mesh.array_mesh import Between
 from solver.mesh.scene import ArrayScene
 from solver.scene import LoopScene
 
-
 SLACK = LoopScene(0.3, 0.002, 0.3)
 TURNED = ArrayScene(LoopScene(0.3, 0.0145, 0.3, modulus_ratio=0.8), 1, 2, Between.CUT)
 
