@@ -36,6 +36,8 @@ def answer_data(answer: Answer, seconds: float) -> Data:
         "pitch_mm": None,
         "energy_mJ": None,
         "contact": None,
+        "negative_eigenvalues": None,
+        "way_down": None,
         **details,
         "seconds": round(seconds, 6),
         "omitted_terms": omitted_data(answer.omitted),
@@ -80,6 +82,8 @@ def _mesh_data(found: MeshEquilibrium) -> Data:
         "loop_heights_over_radius": [float(height) for height in found.loop_heights],
         "triangles": len(found.mesh.triangles),
         "compressed_fraction": found.compressed_fraction,
+        "negative_eigenvalues": found.negative_eigenvalues,
+        "way_down": found.way_down,
         "contact": _contact_data(found),
         **solve_account(found),
     }

@@ -107,14 +107,10 @@ def refuse_what_meets_itself(
     NotConvergedError
         With the number of triangles, and what helps.
     """
-    if not isinstance(scene, ArrayScene) or len(set(scene.stiffness)) > 1:
+    if not isinstance(scene, ArrayScene) or (loop := scene.equal_loop) is None:
         return
-    corner = replace(
-        scene, rows=min(scene.rows, _SAMPLE), columns=min(scene.columns, _SAMPLE), wires=()
-    )
-    wire = scene.stiffness[0]
-    loop = replace(scene.loop, beta=wire.beta, axial_stiffness=wire.axial_stiffness)
-    corner = replace(corner, loop=loop)
+    rows, columns = min(scene.rows, _SAMPLE), min(scene.columns, _SAMPLE)
+    corner = replace(scene, loop=loop, rows=rows, columns=columns, wires=())
     coarsest = array_fan(scene.grid, scene.between, scene.loop.axis_ratio)
     triangles = len(coarsest.triangles) * 4**refinement
     if triangles <= LARGEST_IN_CONTACT:

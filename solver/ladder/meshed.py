@@ -188,7 +188,9 @@ def _mesh_error(found: MeshEquilibrium) -> float:
     if math.isnan(found.coarser_height):
         return math.inf
     change, height = abs(found.height - found.coarser_height), found.height
-    if found.free_motions:  # hinges leave the whole's height open, but not that of each loop
+    # arrays lie level on both meshes
+    open_whole = found.free_motions and not isinstance(found.scene, ArrayScene)
+    if open_whole:  # hinges leave the whole's height open, but not that of each loop
         change = float(np.abs(found.loop_heights - found.coarser_loop_heights).max())
         height = float(found.loop_heights.max())
     change /= _SHARES_OF_ERROR
@@ -210,6 +212,16 @@ def _how_it_meets(found: MeshEquilibrium) -> str:
         )
     apart = min(near.wire_to_wire, 2 * near.wire_to_fabric) / found.wire_diameter
     return f"parts come as near as {apart:.2g} of what the wire's thickness allows"
+
+
+def _way_down(found: MeshEquilibrium) -> str:
+    """Say of a minimum that has negative eigenvalues how little they matter."""
+    if found.status != "converged" or not found.negative_eigenvalues:
+        return ""
+    return (
+        f"; {found.negative_eigenvalues} negative eigenvalues were left, for the way down gains "
+        f"{found.way_down:.1e} of the energy"
+    )
 
 
 def _error_remedy(found: MeshEquilibrium, error: float) -> str:
@@ -250,7 +262,7 @@ def _mesh_answer(
         reason += f"; contact was left out, as asked: {_how_it_meets(found)}"
     return Answer(
         rung=Rung.MESH,
-        reason=reason,
+        reason=reason + _way_down(found),
         buckled=_buckled(found),
         height_over_perimeter=found.height_over_perimeter,
         height_error=error,

@@ -64,6 +64,8 @@ def account(
         energy_terms=energy.terms(positions),
         gradient_norm=last.minimum.gradient_norm,
         lowest_eigenvalue=_lowest_eigenvalue(last, mesh),
+        negative_eigenvalues=last.minimum.negative,
+        way_down=last.minimum.way_down,
         steps=sum(s.minimum.steps for s in solved),
         factorizations=sum(s.minimum.factorizations for s in solved),
         height=total_height(positions, mesh.wires),

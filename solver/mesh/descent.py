@@ -63,8 +63,9 @@ def solved_on(
 ) -> Solved:
     """Minimise on one of the meshes, within limits."""
     mass = mass_of(problem.meshes[level])
-    little = _LITTLE_OF_MANY if len(problem.wires) > 1 else SearchLimits.little
-    limits = replace(limits, steady=problem.tension_field, little=little)
+    if not limits.steady:
+        little = _LITTLE_OF_MANY if len(problem.wires) > 1 else limits.little
+        limits = replace(limits, steady=problem.tension_field, little=little)
     planes = mirrors(problem.meshes[level]) if problem.mirrored else None
     if planes is not None:
         energy = problem.mirrored_energy(level, planes)

@@ -63,6 +63,11 @@ class MeshEquilibrium:
     lowest_eigenvalue : float
         Of the second variation, rigid motions taken out; about 0 when other motions are free too,
         such as the turn of a round loop's fabric under its saddle, or hinges of an array.
+    negative_eigenvalues : int
+        Below −1e-5 E_f t. A shape that has any is a minimum but for what `way_down` tells.
+    way_down : float
+        Part of the energy that a step along them gains: next to nothing over the kinks of wrinkled
+        fabric.
     steps, factorizations : int
         On all meshes together.
     height : float
@@ -85,7 +90,8 @@ class MeshEquilibrium:
     perimeter : float
         Length of one loop's wire as it lies flat, the mean of all; units of R.
     free_motions : int or None
-        Motions that cost next to nothing, beside rigid ones; counted in general scenes.
+        Motions that cost next to nothing, beside rigid ones; counted in general scenes, and in
+        arrays whose loops hang together by their contacts alone.
     contact : ContactAccount, optional
         Where the shape was kept from passing through itself.
     """
@@ -108,6 +114,8 @@ class MeshEquilibrium:
     perimeter: float = 2 * np.pi
     free_motions: int | None = None
     contact: ContactAccount | None = None
+    negative_eigenvalues: int = 0
+    way_down: float = 0.0
     coarser_loop_heights: Vectors = field(default_factory=lambda: np.zeros(0))
 
     @property

@@ -40,6 +40,7 @@ _SMALL_GRADIENT = 1e-4
 _GOOD_RATIO = 0.75
 """Of what a step brings to what the model promised, for the model to be trusted further."""
 _SMALLEST_RADIUS = 1e-12
+_TINY = 1e-300
 _LONGEST_MOVE = 0.5
 """Of any vertex in one step, in units of R."""
 
@@ -244,13 +245,21 @@ def _stepped(search: _Search, state: _State, model: QuadraticModel, radius: floa
         radius = tried.radius
 
 
-def _leads_nowhere(search: _Search, state: _State, tried: _Tried) -> bool:
-    """Whether a way down gains little: kinks of the stiffness open such, a saddle point others."""
-    gain = state.value - search.energy.value(tried.positions)
-    return tried.accepted and gain <= search.limits.little * abs(state.value)
+def _gained(search: _Search, state: _State, tried: _Tried) -> float:
+    """Part of the energy that a way down gains; no way is infinite, for it has not been tried."""
+    if not tried.accepted:
+        return np.inf
+    return (state.value - search.energy.value(tried.positions)) / max(abs(state.value), _TINY)
 
 
-def _ended(search: _Search, state: _State, factored: Factored, *, converged: bool) -> SparseMinimum:
+def _ended(
+    search: _Search,
+    state: _State,
+    factored: Factored,
+    *,
+    converged: bool,
+    way_down: float = 0.0,
+) -> SparseMinimum:
     return SparseMinimum(
         positions=state.positions,
         value=state.value,
@@ -261,6 +270,7 @@ def _ended(search: _Search, state: _State, factored: Factored, *, converged: boo
         steps=search.account.steps,
         factorizations=search.account.factorizations,
         converged=converged,
+        way_down=way_down,
         way=tuple(search.account.values),
     )
 
@@ -296,8 +306,11 @@ def minimise_sparse(
             if model.convex:
                 return _ended(search, state, factored, converged=True)
             tried = _stepped(search, state, model, limits.radius)
-            if _leads_nowhere(search, state, tried):
-                return _ended(search, state, search.factored(entries), converged=True)
+            # kinks of the stiffness open ways that lead nowhere, a saddle point others
+            gained = _gained(search, state, tried)
+            if gained <= limits.little:
+                again = search.factored(entries)
+                return _ended(search, state, again, converged=True, way_down=max(0.0, gained))
         elif at_rest:
             return _ended(search, state, factored, converged=True)
         else:

@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from solver.errors import SceneError
 from solver.loop_energy import scene_membrane
-from solver.mesh.array_mesh import array_fan
+from solver.mesh.array_mesh import array_fan, grid_knots
 from solver.mesh.bonds import bond_energy
 from solver.mesh.levelling import levelling_energy
 from solver.mesh.loop_mesh import SEGMENTS, loop_fan
@@ -156,6 +156,7 @@ def array_problem(
     """A grid of loops, each on a fan of so many triangles, refined so many times."""
     coarsest = array_fan(scene.grid, scene.between, scene.loop.axis_ratio, segments)
     bonded = scene.contact is Contact.BONDED and scene.rows * scene.columns > 1
+    hinged = _hinged(coarsest, len(grid_knots(scene.grid, scene.loop.axis_ratio)))
     return MeshProblem(
         meshes=_refined(coarsest, refinement),
         strain=scene.loop.strain,
@@ -163,6 +164,7 @@ def array_problem(
         wires=scene.stiffness,
         bonded=bonded,
         tension_field=tension_field,
+        levelling=_LEVELLING if hinged else 0.0,
         alpha=scene.loop.alpha,
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -62,10 +63,21 @@ class ArrayScene:
                 f"{len(self.wires)} wires for {self.rows * self.columns} loops: give one for each, "
                 "row by row"
             )
-        if any(not (wire.beta > 0 and wire.axial_stiffness > 0) for wire in self.wires):
-            raise SceneError("beta and axial_stiffness of every wire must be greater than 0")
-        if any(not wire.twist_ratio >= 0 for wire in self.wires):
-            raise SceneError("twist_ratio of every wire must be at least 0")
+        check_wires(self.wires)
+
+    @property
+    def equal_loop(self) -> LoopScene | None:
+        """One of the loops with its own wire, where all are alike."""
+        first, *others = self.stiffness
+        if any(wire != first for wire in others):
+            return None
+        return replace(
+            self.loop,
+            beta=first.beta,
+            axial_stiffness=first.axial_stiffness,
+            natural_curvature=first.natural_curvature,
+            twist_ratio=first.twist_ratio,
+        )
 
     def twisted(self, twist_ratio: float) -> ArrayScene:
         """Give the same with that ρ of every wire."""
@@ -86,6 +98,24 @@ class ArrayScene:
     def stiffness(self) -> tuple[WireStiffness, ...]:
         """Each loop's wire, row by row."""
         return self.wires or (loop_wire(self.loop),) * (self.rows * self.columns)
+
+
+def check_wires(wires: tuple[WireStiffness, ...]) -> None:
+    """Refuse wires with numbers out of their range, by `SceneError` with the wire's number."""
+    for k, wire in enumerate(wires):
+        if not (0 < wire.beta < math.inf and 0 < wire.axial_stiffness < math.inf):
+            raise SceneError(
+                f"wire {k}: beta and axial_stiffness must be greater than 0 and finite"
+            )
+        if not 0 <= wire.natural_curvature < math.inf:
+            raise SceneError(f"wire {k}: natural_curvature must be at least 0 and finite")
+        if not 0 <= wire.twist_ratio < math.inf:
+            raise SceneError(f"wire {k}: twist_ratio must be at least 0 and finite")
+        if wire.twist_ratio > 0 and wire.natural_curvature > 0:
+            raise SceneError(
+                f"wire {k}: twist is modelled for a straight wire only; let twist_ratio or "
+                "natural_curvature be 0"
+            )
 
 
 def loop_wire(scene: LoopScene) -> WireStiffness:

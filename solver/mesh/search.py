@@ -62,6 +62,8 @@ class SparseMinimum:
     steps, factorizations : int
     converged : bool
         Whether the gradient is small and no eigenvalue is negative.
+    way_down : float
+        Part of the energy that a step along them gains, where they were found and left alone.
     way : tuple of float
         Energies at the shapes on the way, this one's last.
     """
@@ -75,4 +77,5 @@ class SparseMinimum:
     steps: int
     factorizations: int
     converged: bool
+    way_down: float = 0.0
     way: tuple[float, ...] = ()

@@ -12,7 +12,7 @@ from solver.mesh.curve import PlaneCurve, Point, direction, nearest
 from solver.mesh.drawing import Drawing, Knot, mean_size
 from solver.mesh.plane_mesh import Between, FabricRegions
 from solver.mesh.rod_energy import WireStiffness
-from solver.mesh.scene import LARGEST_GRID, Contact
+from solver.mesh.scene import LARGEST_GRID, Contact, check_wires
 from solver.scene import LoopScene
 
 _PARALLEL = 0.02
@@ -84,21 +84,7 @@ class SheetScene:
     def __post_init__(self) -> None:
         if not 1 <= len(self.wires) <= LARGEST_GRID:
             raise SceneError(f"{len(self.wires)} wires: there must be 1 to {LARGEST_GRID} of them")
-        for k, wire in enumerate(self.wires):
-            own = wire.stiffness
-            if not (0 < own.beta < np.inf and 0 < own.axial_stiffness < np.inf):
-                raise SceneError(
-                    f"wire {k}: beta and axial_stiffness must be greater than 0 and finite"
-                )
-            if not 0 <= own.natural_curvature < np.inf:
-                raise SceneError(f"wire {k}: natural_curvature must be at least 0 and finite")
-            if not 0 <= own.twist_ratio < np.inf:
-                raise SceneError(f"wire {k}: twist_ratio must be at least 0 and finite")
-            if own.twist_ratio > 0 and own.natural_curvature > 0:
-                raise SceneError(
-                    f"wire {k}: twist is modelled for a straight wire only; let twist_ratio or "
-                    "natural_curvature be 0"
-                )
+        check_wires(self.stiffness)
         if not all(outline.closed for outline in self.outlines):
             raise SceneError("an outline of fabric must be a closed curve")
         for number, joint in enumerate(self.joints):
@@ -111,6 +97,8 @@ class SheetScene:
                 f"joint {number} of wires {joint.wires}: name two or more different wires, "
                 f"0 to {len(self.wires) - 1}"
             )
+        if not all(np.isfinite(joint.point)):
+            raise SceneError(f"joint {number} at {joint.point}: must be finite")
         if joint.contact is Contact.POINT:
             return
         curves = [self.wires[k].curve for k in joint.wires]

@@ -14,12 +14,16 @@ from solver.mesh.account import account
 from solver.mesh.array_mesh import Grid
 from solver.mesh.descent import Solved, among_all, descend, roughly_solved
 from solver.mesh.equilibrium import MeshEquilibrium
+from solver.mesh.flatness import all_but_stable_flat, settled_flat
 from solver.mesh.growth import solved_by_growth
 from solver.mesh.loop_mesh import SEGMENTS
 from solver.mesh.lower_saddle import rough_saddles
 from solver.mesh.problem import MeshProblem, array_problem, loop_problem
 from solver.mesh.scene import ArrayScene
-from solver.mesh.start import aligned_saddle, array_start, loop_start, tiled_start
+from solver.mesh.solve_sheet import descended, free_motions, stiffened
+from solver.mesh.start import array_start, loop_start
+from solver.mesh.tile import solved_by_tile, tile_of
+from solver.mesh.triangulation import prolonged
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
@@ -111,22 +115,54 @@ def _descended(
     return [rough, *descend(problem, first, rough.minimum.positions, backend, most_steps)]
 
 
-def _tiles(scene: ArrayScene) -> bool:
-    """Whether copies of one loop's saddle fit together."""
-    return not scene.gaps_kept and scene.loop.isotropic_circle
-
-
-def _repeats(scene: ArrayScene) -> bool:
+def _grows(scene: ArrayScene) -> bool:
     """Whether a grid is alike in its middle, and buckles with crests along its rows."""
-    return scene.gaps_kept and scene.loop.isotropic_circle and not scene.wires
+    loop = scene.equal_loop
+    return scene.gaps_kept and loop is not None and loop.isotropic_circle
 
 
 def _mirrored_problem(
     scene: ArrayScene, refinement: int, segments: int, tension_field: bool, grid: Grid
 ) -> MeshProblem:
-    scene = replace(scene, rows=grid.rows, columns=grid.columns)
+    wires = scene.stiffness[:1] * (grid.rows * grid.columns)
+    scene = replace(scene, rows=grid.rows, columns=grid.columns, wires=wires)
     problem = array_problem(scene, refinement, tension_field=tension_field, segments=segments)
     return replace(problem, mirrored=True)
+
+
+def _levelled(problem: MeshProblem, backend: str | None, most_steps: int) -> list[Solved]:
+    """Minimise from coarse to fine, all but the last mesh to the end too.
+
+    Hinges are so soft that the height of a coarser mesh would be open else.
+    """
+    meshes, first = problem.meshes, array_start(problem.meshes[0])
+    rough = roughly_solved(problem, 0, first, backend, _LESS_ROUGHLY)
+    coarse = replace(problem, meshes=meshes[:-1] or meshes)
+    solved = [rough, *descended(coarse, rough, backend, most_steps)]
+    if len(meshes) > 1:
+        start = prolonged(meshes[-2], meshes[-1], solved[-1].minimum.positions)
+        solved += descend(problem, len(meshes) - 1, start, backend, most_steps)
+    if solved[-1].minimum.converged:
+        return solved
+    return [*solved, *stiffened(problem, solved[-1].minimum.positions, backend, most_steps)]
+
+
+def _buckled(
+    scene: ArrayScene, problem: MeshProblem, segments: int, backend: str | None, most_steps: int
+) -> list[Solved]:
+    refinement = len(problem.meshes) - 1
+    tile = tile_of(scene)
+    if tile is not None:
+        return solved_by_tile(problem, tile, segments, backend, most_steps)
+    if _grows(scene):
+        grown = partial(_mirrored_problem, scene, refinement, segments, problem.tension_field)
+        return solved_by_growth(problem, scene.grid, grown, backend, most_steps)
+    if problem.levelling > 0:
+        return _levelled(problem, backend, most_steps)
+    flat = array_start(problem.meshes[_COARSEST_ARRAY])
+    rough = roughly_solved(problem, _COARSEST_ARRAY, flat, backend, _LESS_ROUGHLY)
+    start = rough.minimum.positions
+    return [rough, *descend(problem, _COARSEST_ARRAY, start, backend, most_steps)]
 
 
 def solve_array(
@@ -143,34 +179,22 @@ def solve_array(
     """Find a minimum of the energy of a grid of loops; see `solve_loop_mesh`.
 
     A grid whose gaps are cut has hinges that cost nothing: bonded pairs turn about their common
-    tangent. Of the shapes that differ by them it is the one in which the loops lie level.
+    tangent. Of the shapes that differ by them it is one near the plane: the term ``levelling``, of
+    1e-4 E_f t, draws all to it, and motions that are free without it are counted.
     """
     problem = array_problem(scene, refinement, tension_field=tension_field, segments=segments)
-    last = len(problem.meshes) - 1
     if start is not None:
         _check_start(problem, start)
-        solved = descend(problem, last, start, backend, most_steps)
-    elif _tiles(scene):
-        loop = solve_loop_mesh(
-            scene.loop,
-            refinement=refinement,
-            segments=segments,
-            backend=backend,
-            tension_field=tension_field,
-        )
-        tile = aligned_saddle(loop.mesh, loop.positions)
-        tiles = tiled_start(problem.meshes[-1], loop.mesh, tile)
-        solved = descend(problem, last, tiles, backend, most_steps)
-        tiled = account(scene, problem, solved, lenient=allow_unreliable)
-        # tiles that lie level are as high as one of them, on a coarser mesh too
-        coarser = np.full_like(tiled.loop_heights, loop.coarser_height)
-        return replace(tiled, coarser_height=loop.coarser_height, coarser_loop_heights=coarser)
-    elif _repeats(scene):
-        grown = partial(_mirrored_problem, scene, refinement, segments, tension_field)
-        solved = solved_by_growth(problem, scene.grid, grown, backend, most_steps)
+        solved = descend(problem, len(problem.meshes) - 1, start, backend, most_steps)
     else:
-        first = _COARSEST_ARRAY
-        flat = array_start(problem.meshes[first])
-        rough = roughly_solved(problem, first, flat, backend, _LESS_ROUGHLY)
-        solved = [rough, *descend(problem, first, rough.minimum.positions, backend, most_steps)]
-    return account(scene, problem, solved, lenient=allow_unreliable)
+        radius = flat_radius(scene.equal_loop or scene.loop)
+        flat = all_but_stable_flat(problem, radius, backend, most_steps)
+        solved = [] if flat is None else descend(problem, 0, flat, backend, most_steps)
+        # a flat shape that is exactly symmetric may hide its way down
+        if not solved or solved[-1].minimum.negative:
+            solved += _buckled(scene, problem, segments, backend, most_steps)
+        solved = settled_flat(problem, solved, radius, backend, most_steps)
+    found = account(scene, problem, solved, lenient=allow_unreliable)
+    if problem.levelling == 0:
+        return found
+    return replace(found, free_motions=free_motions(solved[-1], problem))

@@ -92,10 +92,10 @@ def _solved(
         for start in sheet_starts(scene, problem.meshes[0], starts)
     ]
     rough.sort(key=lambda one: one.minimum.value)
-    solved = [*rough, *_descended(problem, rough[0], backend, most_steps)]
+    solved = [*rough, *descended(problem, rough[0], backend, most_steps)]
     if solved[-1].minimum.converged:
         return solved
-    solved += _stiffened(problem, solved[-1].minimum.positions, backend, most_steps)
+    solved += stiffened(problem, solved[-1].minimum.positions, backend, most_steps)
     if solved[-1].minimum.converged:
         return solved
     # little strain makes a smooth shape, which more of it bends further
@@ -104,10 +104,10 @@ def _solved(
         eased = replace(problem, strain=part * problem.strain)
         solved.append(roughly_solved(eased, 0, start, backend, _ROUGHLY))
         start = solved[-1].minimum.positions
-    return [*solved, *_descended(problem, solved[-1], backend, most_steps)]
+    return [*solved, *descended(problem, solved[-1], backend, most_steps)]
 
 
-def _stiffened(
+def stiffened(
     problem: MeshProblem, start: Vectors, backend: str | None, most_steps: int
 ) -> list[Solved]:
     """Minimise on the finest mesh with wires that get stiffer step by step.
@@ -125,7 +125,7 @@ def _stiffened(
     return [*solved, *descend(problem, last, start, backend, most_steps)]
 
 
-def _descended(
+def descended(
     problem: MeshProblem, rough: Solved, backend: str | None, most_steps: int
 ) -> list[Solved]:
     """Minimise from coarse to fine; first of all lay flat what hinges freely."""

@@ -51,6 +51,14 @@ def loop_starts(energy: MeshEnergy, mesh: Mesh, radius: float) -> tuple[Vectors,
     return tuple(flat + _AMPLITUDE * lifts[:, :, k] for k in order if stiffness[k] < 0) or (flat,)
 
 
+def lifted(mesh: Mesh) -> Vectors:
+    """Positions (n, 3) of a round loop, lifted along the saddle with its crests on the x axis."""
+    x, y = _disc_coordinates(mesh).T
+    positions = embedded(mesh.points)
+    positions[:, 2] = _AMPLITUDE * (x * x - y * y)
+    return positions
+
+
 def array_start(mesh: Mesh) -> Vectors:
     """Positions (n, 3) of a grid, lifted along saddles with their crests on the contacts along x.
 
@@ -60,33 +68,6 @@ def array_start(mesh: Mesh) -> Vectors:
     positions = embedded(mesh.points)
     positions[:, 2] = _AMPLITUDE / 2 * (np.cos(np.pi * y) - np.cos(np.pi * x))
     return positions
-
-
-def _images(points: Vectors) -> list[tuple[NDArray[np.int64], Vectors]]:
-    """Symmetries of the saddle: where each flat point (n, 2) goes, and the map (3, 3) with it."""
-    key = np.lexsort(np.round(points, 9).T)
-    out: list[tuple[NDArray[np.int64], Vectors]] = []
-    for quarter in (0, 1):
-        swap = np.array([[0.0, 1.0], [1.0, 0.0]]) if quarter else np.eye(2)
-        for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
-            flat = np.diag(signs) @ swap
-            position = np.empty(len(points), dtype=np.int64)
-            position[np.lexsort(np.round(points @ flat.T, 9).T)] = key
-            whole = np.eye(3)
-            whole[:2, :2], whole[2, 2] = flat, -1.0 if quarter else 1.0
-            out.append((position, whole))
-    return out
-
-
-def aligned_saddle(loop: Mesh, solved: Vectors) -> Vectors:
-    """Positions (n, 3) of a round loop's saddle, its crests turned to the x axis.
-
-    On its own mesh the saddle rests a little turned at times, since the fabric's turn is all but
-    free; the mean over the saddle's eight symmetries undoes that.
-    """
-    middle = solved - solved[loop.wires[0].vertices].mean(axis=0)
-    images = [(middle @ whole)[position] for position, whole in _images(loop.points)]
-    return np.mean(images, axis=0)
 
 
 def tiled_start(mesh: Mesh, loop: Mesh, solved: Vectors) -> Vectors:
