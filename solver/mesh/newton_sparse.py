@@ -261,6 +261,7 @@ def _ended(search: _Search, state: _State, factored: Factored, *, converged: boo
         steps=search.account.steps,
         factorizations=search.account.factorizations,
         converged=converged,
+        most_steps=search.limits.steps,
         way=tuple(search.account.values),
     )
 

@@ -62,6 +62,8 @@ class SparseMinimum:
     steps, factorizations : int
     converged : bool
         Whether the gradient is small and no eigenvalue is negative.
+    most_steps : int
+        That it might have taken.
     way : tuple of float
         Energies at the shapes on the way, this one's last.
     """
@@ -75,4 +77,5 @@ class SparseMinimum:
     steps: int
     factorizations: int
     converged: bool
+    most_steps: int
     way: tuple[float, ...] = ()
