@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from sesame_cad.omitted_data import omitted_data
+from solver.round_wire import wire_diameter
 
 if TYPE_CHECKING:  # the scaling rung must not load what the others need
     from solver.equilibrium import Equilibrium
@@ -20,7 +21,9 @@ def answer_data(answer: Answer, seconds: float) -> Data:
     """Keys of `sesame-cad solve`; null where a rung cannot tell or a length in SI units is needed.
 
     The same for every rung: those of a solved loop, then which rung and why, what is in the energy,
-    and the estimated error of the height.
+    and the estimated error of the height. ``distances`` are those of the answer, with or without
+    contact, in units of R: null where the smallest is further than was looked. Crossings are
+    counted on meshes. ``writhe``, in turns, is that of the wire that writhes most.
     """
     found = answer.equilibrium
     if found is None:
@@ -38,6 +41,7 @@ def answer_data(answer: Answer, seconds: float) -> Data:
         "contact": None,
         "negative_eigenvalues": None,
         "way_down": None,
+        "distances": None,
         **details,
         "seconds": round(seconds, 6),
         "omitted_terms": omitted_data(answer.omitted),
@@ -57,6 +61,7 @@ def _law_data(answer: Answer) -> Data:
         "status": "converged" if math.isfinite(answer.height_error) else "not compared",
         "gradient_norm": None,
         "lowest_eigenvalue": None,
+        "writhe": None,
         "steps": 0,
         "factorizations": 0,
         "unknowns": 0,
@@ -70,6 +75,13 @@ def _loop_data(found: Equilibrium) -> Data:
         "pitch_over_diameter": found.shape.width / 2,
         "height_change": found.height_change,
         "kind": str(found.kind),
+        "distances": {
+            "wire_diameter_over_radius": wire_diameter(found.scene),
+            "looked_over_radius": None,
+            "wire_to_wire": found.wire_gap,
+            "wire_to_fabric": found.fabric_gap,
+            "crossings": None,
+        },
         **solve_account(found),
     }
 
@@ -85,6 +97,11 @@ def _mesh_data(found: MeshEquilibrium) -> Data:
         "negative_eigenvalues": found.negative_eigenvalues,
         "way_down": found.way_down,
         "contact": _contact_data(found),
+        "distances": {
+            "wire_diameter_over_radius": found.wire_diameter,
+            "looked_over_radius": found.looked,
+            **_near(found.distances),
+        },
         **solve_account(found),
     }
 
@@ -105,9 +122,11 @@ def _contact_data(found: MeshEquilibrium) -> Data | None:
 
 
 def _distances(near: SelfContact | None) -> Data | None:
+    return None if near is None else _near(near)
+
+
+def _near(near: SelfContact) -> Data:
     """Null for a distance that is larger than was looked."""
-    if near is None:
-        return None
     wires, fabric = near.wire_to_wire, near.wire_to_fabric
     return {
         "wire_to_wire": wires if math.isfinite(wires) else None,
@@ -124,6 +143,7 @@ def solve_account(found: Equilibrium | MeshEquilibrium) -> Data:
         "status": found.status,
         "gradient_norm": found.gradient_norm,
         "lowest_eigenvalue": found.lowest_eigenvalue,
+        "writhe": found.writhe,
         "steps": found.steps,
         "factorizations": found.factorizations,
         "unknowns": found.unknowns,

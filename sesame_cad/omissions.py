@@ -8,11 +8,9 @@ from sesame_cad.specification import Specification
 from solver.checks import CONTACT, smallest_wire_gap
 from solver.equilibrium import Equilibrium
 from solver.materials import LoopMaterials
-from solver.omitted import OmittedTerm
+from solver.omitted import SMALL, OmittedTerm
 
 GRAVITY_M_S2 = 9.80665
-SMALL = 0.01
-"""A neglected term below a hundredth of what is kept is not worth a warning."""
 
 
 def loop_mass_kg(spec: Specification, radius_mm: float | None = None) -> float:

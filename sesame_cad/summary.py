@@ -59,6 +59,8 @@ def print_answer(data: Data) -> None:
         ("status", data["status"]),
         ("gradient norm", _number(data["gradient_norm"], ".1e")),
         ("lowest eigenvalue", _number(data["lowest_eigenvalue"], ".6g")),
+        ("writhe", _number(data["writhe"], ".1e")),
+        ("nearest parts", _nearest(data["distances"])),
         ("steps", f"{data['steps']} on {data['unknowns']} unknowns"),
         ("seconds", f"{data['seconds']:.6f}"),
     ]
@@ -67,6 +69,20 @@ def print_answer(data: Data) -> None:
         mark = "[yellow]warning[/], left out" if left["matters"] else "left out"
         value = "" if left["value"] is None else f" = {left['value']:.3g}"
         console.print(f"{mark}: {left['term']} ({left['measure']}{value})")
+
+
+def _nearest(near: Data | None) -> str:
+    """Say how near a shape comes to itself, in units of R."""
+    if near is None:
+        return ""
+    beyond = f"more than {near['looked_over_radius'] or 0:.3g} R"
+    wires, fabric = (
+        beyond if near[key] is None else f"{near[key]:.3g} R"
+        for key in ("wire_to_wire", "wire_to_fabric")
+    )
+    crossings = f", {near['crossings']} crossings" if near["crossings"] else ""
+    thick = near["wire_diameter_over_radius"]
+    return f"wires {wires}, wire and fabric {fabric}{crossings}; the wire is {thick:.3g} R thick"
 
 
 def _number(value: float | None, style: str) -> str:

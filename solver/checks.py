@@ -31,6 +31,7 @@ TWIST = "twist of the wire"
 TWIST_MEASURE = "twist energy of a round wire / energy"
 SLACK = "slack fabric (tension field)"
 GAUSS = "fabric's bending by Gaussian curvature"
+OWN_CURVATURE = "wire's resistance to twist"
 EDGE_POINTS = 256
 WRITHE_POINTS = 48
 LARGEST_WIRE_STRAIN = 0.01
@@ -50,6 +51,9 @@ SMALLEST_TWIST = 1e-4
 
 _SMALLEST_GAUSS = 1e-3
 """Share of the energy from which the rest of a plate's bending is told of."""
+
+_ROUNDING = 1e-6
+"""Natural curvature beyond the curvature, in units of 1/R, that a flat loop has by rounding."""
 
 STRAYED = 0.5
 """In turns; a wire that passes through itself, or a tangent through its opposite, makes it 2."""
@@ -98,6 +102,13 @@ def own_curvature_excess(scene: LoopScene, basis: DiscBasis, q: Vectors) -> floa
     turn = np.linalg.norm(np.cross(tangent, second), axis=1)
     curvature = turn / np.linalg.norm(tangent, axis=1) ** 3
     return max(0.0, scene.natural_curvature - float(curvature.min()))
+
+
+def own_curvature_left_out(excess: float) -> OmittedTerm:
+    """What keeps a wire from wriggling, from `own_curvature_excess`; fatal where it would."""
+    wriggles = excess > _ROUNDING
+    measure = "natural curvature beyond the curvature / (1/R)"
+    return OmittedTerm(OWN_CURVATURE, measure, excess, matters=wriggles, fatal=wriggles)
 
 
 def smallest_wire_gap(shape: LoopShape) -> float:
@@ -251,7 +262,6 @@ def looked_back(
     """
     shape = LoopShape(basis.unknowns, q)
     strain = largest_wire_strain(scene, basis, q)
-    wriggle = own_curvature_excess(scene, basis, q)
     curved = gauss_integral(jet_map(basis) @ q, basis.area) if scene.alpha > 0 else 0.0
     return (
         OmittedTerm(
@@ -263,13 +273,7 @@ def looked_back(
         _contact(scene, shape),
         *_twist_left_out(scene, basis, q, energy),
         *gauss_left_out(scene.alpha, scene.poisson, curved, energy),
-        OmittedTerm(
-            "wire's resistance to twist",
-            "natural curvature beyond the curvature / (1/R)",
-            wriggle,
-            matters=wriggle > 0,
-            fatal=wriggle > 0,
-        ),
+        own_curvature_left_out(own_curvature_excess(scene, basis, q)),
         OmittedTerm(
             "wire's softness beyond small stretch",
             "largest wire strain",

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
+from solver.checks import WRITHE_POINTS, smallest_fabric_gap, smallest_wire_gap, writhe
 from solver.omitted import OmittedTerm
 from solver.scene import LoopScene
 from solver.shape import LoopShape
@@ -74,3 +76,18 @@ class Equilibrium:
     def energy(self) -> float:
         """Total energy."""
         return sum(self.energy_terms.values())
+
+    @cached_property
+    def writhe(self) -> float:
+        """Writhe of the wire, in turns."""
+        return writhe(self.shape.edge(WRITHE_POINTS))
+
+    @cached_property
+    def wire_gap(self) -> float:
+        """Smallest distance of wires across the loop, units of R; negative when crossed."""
+        return smallest_wire_gap(self.shape)
+
+    @cached_property
+    def fabric_gap(self) -> float:
+        """Smallest distance of wire and fabric that lie apart when flat, units of R."""
+        return smallest_fabric_gap(self.scene, self.shape)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+SMALL = 0.01
+"""A neglected term below a hundredth of what is kept is not worth a warning."""
+
 
 @dataclass(frozen=True, slots=True)
 class OmittedTerm:

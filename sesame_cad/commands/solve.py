@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING
 
@@ -125,10 +126,12 @@ def command(
     (height_mm, pitch_mm, energy_mJ) are null.
     """
     import json
+    from dataclasses import replace
     from time import perf_counter
 
     from sesame_cad.answer_data import answer_data
     from sesame_cad.progress import telling
+    from sesame_cad.scaleless import scaleless_omissions
     from sesame_cad.summary import print_answer
     from solver.errors import NotConvergedError, SceneError
     from solver.reading import Reading
@@ -162,11 +165,27 @@ def command(
     except NotConvergedError as error:
         click.echo(f"error: {error}", err=True)
         raise click.exceptions.Exit(1) from None
-    data = answer_data(answer, seconds)
+    left_out = (*answer.omitted, *scaleless_omissions(alpha, _bending_share(answer)))
+    data = answer_data(replace(answer, omitted=left_out), seconds)
     if as_json:
         click.echo(json.dumps(data, indent=2))
     else:
         print_answer(data)
+
+
+def _bending_share(answer: Answer) -> float:
+    """Give what the bending of fabric with α = 1 would have in the energy that one loop releases.
+
+    Not a number where the answer is a law's, or an array's.
+    """
+    if answer.equilibrium is None:
+        return math.nan
+    from solver.ladder.fabric_share import curved_fabric
+    from solver.scene import LoopScene
+
+    scene = answer.equilibrium.scene
+    curved = curved_fabric(answer, scene) if isinstance(scene, LoopScene) else None
+    return math.nan if curved is None else curved.bending_share(1.0)
 
 
 def _grid(loops: str) -> tuple[int, int]:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from solver.checks import SLACK, TWIST
+from solver.checks import OWN_CURVATURE, SLACK, TWIST
 from solver.compact import solve_loop
 from solver.errors import SceneError
 from solver.ladder.answer import Answer, Rung
@@ -143,6 +143,9 @@ def _by_compact_or_mesh(
     slack = _matters(smooth, SLACK)
     if found is not None and found.status == "converged" and not slack:
         return smooth
+    # a mesh knows no more of what would stop a wire that wriggles
+    if _matters(smooth, OWN_CURVATURE):
+        return _by_compact(scene, reason, tolerance, lenient=lenient)
     why = "the fabric is slack" if slack else "the smooth basis did not settle"
     added = "a mesh" if scene.alpha > 0 else "a mesh with a tension field"
     reason = f"{why}: {added} was added"

@@ -6,9 +6,7 @@ import math
 from collections.abc import Callable
 from functools import partial
 
-import numpy as np
-
-from solver.checks import CONTACT
+from solver.checks import CONTACT, OWN_CURVATURE
 from solver.errors import NotConvergedError
 from solver.ladder.answer import Answer, Rung
 from solver.ladder.contact import (
@@ -19,13 +17,14 @@ from solver.ladder.contact import (
     refuse_what_meets_itself,
 )
 from solver.ladder.edges import MOST_TRIANGLES, edges_of_a_loop
+from solver.ladder.mesh_error import FLAT, mesh_error
+from solver.ladder.refusal import refused
 from solver.mesh.any_scene import MeshScene, fabric_of, size_of, twisted
 from solver.mesh.drawing import SEGMENTS
 from solver.mesh.equilibrium import MeshEquilibrium
-from solver.mesh.omissions import lacks_twist, mesh_omissions, wrinkles_escape
+from solver.mesh.omissions import lacks_twist, mesh_omissions, wriggles, wrinkles_escape
 from solver.mesh.scene import ArrayScene
 from solver.mesh.solve_any import solve_on_mesh
-from solver.mesh.thickness import REACH
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 
 FINEST_LOOP = 5
@@ -37,10 +36,6 @@ TWIST_ADDED = "the wire's twist was added, for the shape without it has writhe"
 _COARSEST_LOOP, _COARSEST_ARRAY = 2, 1
 """Refinements of the first mesh that is solved for itself."""
 _MANY_LOOPS = 9
-_FLAT = 1e-6
-"""Height over the loops' mean radius up to which a shape is flat."""
-_SHARES_OF_ERROR = 3.0
-"""A second-order error is a third of its change from the mesh with edges twice as long."""
 
 
 def by_mesh(
@@ -54,7 +49,7 @@ def by_mesh(
     told: Callable[[str], None] = lambda _: None,
     contact: ContactChoice = ContactChoice.AUTO,
 ) -> Answer:
-    """Refine until a third of the last change in height is the error allowed.
+    """Refine until what the height may still change by is the error allowed.
 
     Parameters
     ----------
@@ -71,13 +66,13 @@ def by_mesh(
     if contact is ContactChoice.AUTO and not lenient:
         alone = partial(_solved, segments=SEGMENTS, field=False)
         refuse_what_meets_itself(scene, refinements[0], alone)
-    found = _refined(
+    found, error = _refined(
         scene, tolerance, refinements, told, contact, lenient=lenient, add_twist=add_twist
     )
     tolerance = math.inf if refinement is not None else tolerance
     if found.scene != scene:
         reason = f"{reason}; {TWIST_ADDED}"
-    return _mesh_answer(found, reason, tolerance, contact, lenient=lenient)
+    return _mesh_answer(found, error, reason, tolerance, contact, lenient=lenient)
 
 
 def _refinements(scene: MeshScene, only: int | None) -> range:
@@ -98,18 +93,28 @@ def _refined(
     *,
     lenient: bool,
     add_twist: bool,
-) -> MeshEquilibrium:
-    """Solve on finer and finer meshes; from where plain fabric goes slack, with a tension field."""
+) -> tuple[MeshEquilibrium, float]:
+    """Solve on finer and finer meshes; from where plain fabric goes slack, with a tension field.
+
+    Gives the last one's shape, and the error of its height.
+    """
     contact = InContact(scene, choice)
     refinement = refinements[0]
+    before: list[MeshEquilibrium] = []
     field = _slack_for_sure(scene)
     # one mesh asked for by its refinement is that of loops as they are elsewhere
     segments = edges_of_a_loop(scene) if len(refinements) > 1 else SEGMENTS
     while True:
         told(f"mesh refined {refinement} times")
-        found = _solved(scene, refinement, segments=segments, field=field)
+        try:
+            found = _solved(scene, refinement, segments=segments, field=field)
+        except NotConvergedError as fault:
+            raise refused(str(fault), before) from None
         field = found.tension_field
-        found = contact.solved(found, refinement, lenient=lenient)
+        try:
+            found = contact.solved(found, refinement, lenient=lenient)
+        except NotConvergedError as fault:
+            raise refused(str(fault), before, scene) from None
         # where a shape passes through itself its writhe jumps and tells nothing
         if add_twist and not found.meets_itself and lacks_twist(found):
             with_twist = twisted(scene, ROUND_WIRE_TWIST_RATIO)
@@ -125,11 +130,13 @@ def _refined(
                 )
             except NotConvergedError:
                 add_twist = False  # the account of what is left out tells the twist
-        _check_converged(found, choice, lenient=lenient)
+        _check_converged(found, before, choice, lenient=lenient)
+        error = mesh_error(found, before)
         # two coarse meshes may agree by chance
-        settled = refinement > _COARSEST_ARRAY and _mesh_error(found) <= tolerance
+        settled = (refinement > refinements[0] and error <= tolerance) or wriggles(found)
         if settled or refinement >= refinements[-1] or _finest(scene, found, refinement, choice):
-            return found
+            return found, error
+        before.append(found)
         refinement += 1
 
 
@@ -176,32 +183,21 @@ def _finest(
     return slackened or large or beyond_help or finest_in_contact(found)
 
 
-def _check_converged(found: MeshEquilibrium, choice: ContactChoice, *, lenient: bool) -> None:
+def _check_converged(
+    found: MeshEquilibrium,
+    before: list[MeshEquilibrium],
+    choice: ContactChoice,
+    *,
+    lenient: bool,
+) -> None:
     # what meets itself is refused for that, with what would mend it
     told = choice is ContactChoice.AUTO and found.meets_itself
     if not (lenient or found.status == "converged" or told):
-        raise NotConvergedError(found.status)
-
-
-def _mesh_error(found: MeshEquilibrium) -> float:
-    """Error of the height, relative to it; infinite when there is no other mesh to tell it."""
-    if math.isnan(found.coarser_height):
-        return math.inf
-    change, height = abs(found.height - found.coarser_height), found.height
-    # arrays lie level on both meshes
-    open_whole = found.free_motions and not isinstance(found.scene, ArrayScene)
-    if open_whole:  # hinges leave the whole's height open, but not that of each loop
-        change = float(np.abs(found.loop_heights - found.coarser_loop_heights).max())
-        height = float(found.loop_heights.max())
-    change /= _SHARES_OF_ERROR
-    if found.contact is not None:  # parts keep no more apart than this beyond their thickness
-        change = max(change, REACH * found.wire_diameter)
-    flat = height <= _FLAT * size_of(found.scene)
-    return change / (size_of(found.scene) if flat else height)
+        raise refused(found.status, before)
 
 
 def _buckled(found: MeshEquilibrium) -> bool:
-    return found.height > _FLAT * size_of(found.scene)
+    return found.height > FLAT * size_of(found.scene)
 
 
 def _how_it_meets(found: MeshEquilibrium) -> str:
@@ -237,6 +233,7 @@ def _error_remedy(found: MeshEquilibrium, error: float) -> str:
 
 def _mesh_answer(
     found: MeshEquilibrium,
+    error: float,
     reason: str,
     tolerance: float,
     contact: ContactChoice,
@@ -244,10 +241,11 @@ def _mesh_answer(
     lenient: bool,
 ) -> Answer:
     omitted = mesh_omissions(found)
-    error = _mesh_error(found)
     off = contact is ContactChoice.OFF
     fatal = [o.term for o in omitted if o.fatal and not (off and o.term == CONTACT)]
     faults = [f"{term} is left out, and the shape is wrong without" for term in fatal]
+    if OWN_CURVATURE in fatal:
+        faults.append("the wire would wriggle; lower natural_curvature")
     if CONTACT in fatal:
         faults.append(contact_remedy(found.scene))
     if found.contact is not None and found.distances.crossings:

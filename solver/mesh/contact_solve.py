@@ -79,7 +79,8 @@ def _free_shape(
         if clear and found.distances.crossings == 0:
             return part, found.positions
     raise NotConvergedError(
-        "contact: the shape meets itself at every prestrain; take a thinner wire or larger loops"
+        f"contact: a wire of diameter √(32 beta / axial_stiffness) = {thickest_wire(scene):.2g}, "
+        "over R, meets itself at every prestrain; lower beta or raise axial_stiffness"
     )
 
 

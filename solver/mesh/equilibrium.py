@@ -8,11 +8,19 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.checks import writhe
 from solver.mesh.any_scene import MeshScene, size_of, thickest_wire
 from solver.mesh.self_contact import LOOKED, SelfContact, self_contact
 from solver.mesh.triangulation import Mesh
 
 Vectors = NDArray[np.float64]
+
+
+_MOST_WRITHE_POINTS = 160
+
+
+def _thinned(loop: Vectors) -> Vectors:
+    return loop[:: max(1, len(loop) // _MOST_WRITHE_POINTS)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,8 +69,8 @@ class MeshEquilibrium:
     gradient_norm : float
         Largest component of the energy's gradient.
     lowest_eigenvalue : float
-        Of the second variation, rigid motions taken out; about 0 when other motions are free too,
-        such as the turn of a round loop's fabric under its saddle, or hinges of an array.
+        Of the second variation, rigid motions taken out, and the turn of one round loop's fabric
+        under its saddle; about 0 when other motions are free too, such as hinges of an array.
     negative_eigenvalues : int
         Below −1e-5 E_f t. A shape that has any is a minimum but for what `way_down` tells.
     way_down : float
@@ -123,11 +131,15 @@ class MeshEquilibrium:
         """Diameter of the thickest wire, units of R; see `solver.round_wire`."""
         return thickest_wire(self.scene)
 
+    @property
+    def looked(self) -> float:
+        """How far is looked for parts that come near each other."""
+        return max(LOOKED * size_of(self.scene), 2 * self.wire_diameter)
+
     @cached_property
     def distances(self) -> SelfContact:
         """How near the shape comes to itself."""
-        looked = max(LOOKED * size_of(self.scene), 2 * self.wire_diameter)
-        return self_contact(self.mesh, self.positions, looked)
+        return self_contact(self.mesh, self.positions, self.looked)
 
     @property
     def meets_itself(self) -> bool:
@@ -135,6 +147,19 @@ class MeshEquilibrium:
         near, thick = self.distances, self.wire_diameter
         too_near = near.wire_to_wire < thick or near.wire_to_fabric < thick / 2
         return near.crossings > 0 or too_near
+
+    @cached_property
+    def writhes(self) -> tuple[float, ...]:
+        """Writhe of each closed wire, in turns; 0 of an open one."""
+        return tuple(
+            writhe(_thinned(self.positions[wire.vertices])) if wire.closed else 0.0
+            for wire in self.mesh.wires
+        )
+
+    @property
+    def writhe(self) -> float:
+        """Writhe of the wire that writhes most."""
+        return max(self.writhes, key=abs)
 
     @property
     def energy(self) -> float:

@@ -271,6 +271,7 @@ def _ended(
         factorizations=search.account.factorizations,
         converged=converged,
         way_down=way_down,
+        most_steps=search.limits.steps,
         way=tuple(search.account.values),
     )
 

@@ -14,7 +14,7 @@ from solver.checks import (
     TWIST,
     TWIST_MEASURE,
     gauss_left_out,
-    writhe,
+    own_curvature_left_out,
 )
 from solver.fabric_bending import finest_wrinkle
 from solver.mesh.any_scene import fabric_of, wires_of
@@ -27,8 +27,6 @@ from solver.omitted import OmittedTerm
 from solver.scene import ROUND_WIRE_TWIST_RATIO, LoopScene
 
 Vectors = NDArray[np.float64]
-
-MOST_WRITHE_POINTS = 160
 
 GAP_SOFTNESS = "softness of the fabric between the loops"
 THIN = (
@@ -58,6 +56,7 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
         *(() if found.contact else (_contact(found),)),
         *_twist_left_out(found),
         *_gauss_left_out(found, scene),
+        *_own_curvature(found),
         *_stiff_gaps(found.mesh),
         OmittedTerm(
             "wire's softness beyond small stretch",
@@ -124,9 +123,8 @@ def _twist_left_out(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
     """Twist of the wires that have none in the energy: the largest, over the energy of a loop."""
     own, mesh = wires_of(found.scene), found.mesh
     energies = [
-        twist_stiffness(mesh, wire, stiffness, ROUND_WIRE_TWIST_RATIO)
-        * writhe(_thinned(found.positions[wire.vertices])) ** 2
-        for wire, stiffness in zip(mesh.wires, own, strict=True)
+        twist_stiffness(mesh, wire, stiffness, ROUND_WIRE_TWIST_RATIO) * writhe**2
+        for wire, stiffness, writhe in zip(mesh.wires, own, found.writhes, strict=True)
         if wire.closed and stiffness.twist_ratio == 0
     ]
     if not energies:
@@ -142,6 +140,35 @@ def _gauss_left_out(found: MeshEquilibrium, scene: LoopScene) -> tuple[OmittedTe
     return gauss_left_out(scene.alpha, scene.poisson, curved, found.energy)
 
 
+def wriggles(found: MeshEquilibrium) -> bool:
+    """Whether a wire would wriggle on a scale without limit, which no finer mesh mends."""
+    return any(left.fatal for left in _own_curvature(found))
+
+
+def _own_curvature(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
+    """Most by which a wire's own curvature exceeds its curvature; see `own_curvature_excess`."""
+    pairs = zip(found.mesh.wires, wires_of(found.scene), strict=True)
+    excess = [
+        own.natural_curvature - float(_curvatures(found.positions, wire).min())
+        for wire, own in pairs
+        if own.natural_curvature > 0
+    ]
+    return (own_curvature_left_out(max([0.0, *excess])),) if excess else ()
+
+
+def _curvatures(positions: Vectors, wire: Wire) -> Vectors:
+    """Curvature (v,) of the circle through each vertex of a wire and both its neighbours.
+
+    Exact for a flat loop. A wire that wriggles from vertex to vertex lets φ/l be its own curvature,
+    of which this falls short.
+    """
+    points = positions[wire.vertices]
+    edges = np.diff(points, axis=0, append=points[:1] if wire.closed else points[:0])
+    before, after = (np.roll(edges, 1, axis=0), edges) if wire.closed else (edges[:-1], edges[1:])
+    sides = [np.linalg.norm(side, axis=1) for side in (before, after, before + after)]
+    return 2 * np.linalg.norm(np.cross(before, after), axis=1) / (sides[0] * sides[1] * sides[2])
+
+
 def _lengths(points: Vectors, wire: Wire) -> Vectors:
     """Length (e,) of a wire's edges between points (n, 2) or (n, 3)."""
     return np.linalg.norm(points[wire.edges[:, 1]] - points[wire.edges[:, 0]], axis=1)
@@ -150,7 +177,3 @@ def _lengths(points: Vectors, wire: Wire) -> Vectors:
 def _wire_strain(found: MeshEquilibrium, wire: Wire) -> float:
     now, flat = (_lengths(points, wire) for points in (found.positions, found.mesh.points))
     return float(np.abs(now / flat - 1).max())
-
-
-def _thinned(loop: Vectors) -> Vectors:
-    return loop[:: max(1, len(loop) // MOST_WRITHE_POINTS)]

@@ -64,6 +64,8 @@ class SparseMinimum:
         Whether the gradient is small and no eigenvalue is negative.
     way_down : float
         Part of the energy that a step along them gains, where they were found and left alone.
+    most_steps : int
+        That it might have taken.
     way : tuple of float
         Energies at the shapes on the way, this one's last.
     """
@@ -77,5 +79,6 @@ class SparseMinimum:
     steps: int
     factorizations: int
     converged: bool
+    most_steps: int
     way_down: float = 0.0
     way: tuple[float, ...] = ()

@@ -122,6 +122,46 @@ def test_a_tolerance_that_cannot_be(tolerance, fidelity, faults_of_command):
     assert fault.startswith("error: --tolerance: ")
 
 
+def test_a_shape_tells_its_writhe_and_how_near_it_comes_to_itself():
+    flat = ["solve", "--strain", "0.1", "--beta", "0.03", "--poisson", "0.3", "--json"]
+    disc = json.loads(CliRunner().invoke(cli, [*flat, "--fidelity", "compact"]).stdout)
+    assert disc["writhe"] == pytest.approx(0, abs=1e-9)
+    # opposite points; a quarter turn apart are the nearest that are compared
+    assert disc["distances"]["wire_to_wire"] == pytest.approx(2**0.5, rel=1e-3)
+    saddle = json.loads(_run("--json").stdout)
+    assert saddle["writhe"] == pytest.approx(0, abs=1e-6)
+    near = saddle["distances"]
+    assert near["wire_diameter_over_radius"] == pytest.approx((32 * 0.0145 / 1000) ** 0.5)
+    assert 0.2 < near["wire_to_fabric"] < near["wire_to_wire"] < 2**0.5
+    ellipse = ("--axis-ratio", "1.5", "--fidelity", "compact", "--beta", "0.0225", "--json")
+    assert abs(json.loads(_run(*ellipse).stdout)["writhe"]) > 1e-3
+    law = json.loads(_run("--fidelity", "scaling", "--json").stdout)
+    assert law["writhe"] is None
+    assert law["distances"] is None
+
+
+def test_a_mesh_tells_its_writhe_and_how_near_it_comes_to_itself():
+    apart = json.loads(_run("--fidelity", "mesh", "--tolerance", "0.05", "--json").stdout)
+    assert apart["writhe"] == pytest.approx(0, abs=1e-6)
+    near = apart["distances"]
+    assert near["wire_to_wire"] is None
+    assert near["looked_over_radius"] == pytest.approx(0.1)
+    assert near["crossings"] == 0
+
+
+def test_what_a_dimensionless_solve_cannot_know_is_told():
+    left = {one["term"]: one for one in json.loads(_run("--json").stdout)["omitted_terms"]}
+    assert left["gravity"]["value"] is None
+    assert "weight of a loop / (E_f t R)" in left["gravity"]["measure"]
+    share = left["bending of the fabric"]["value"]
+    thin = json.loads(_run("--alpha", "1e-5", "--json").stdout)["omitted_terms"]
+    (told,) = (one for one in thin if one["term"] == "bending of the fabric")
+    assert told["value"] == pytest.approx(1e-5 * share, rel=1e-6)
+    assert sum(one["term"] == "gravity" for one in thin) == 1
+    law = json.loads(_run("--fidelity", "scaling", "--json").stdout)["omitted_terms"]
+    assert {"gravity", "bending of the fabric"} <= {one["term"] for one in law}
+
+
 def test_arrays_and_ellipses():
     tiled = json.loads(_run("--loops", "3x3", "--json").stdout)
     assert tiled["rung"] == "compact"

@@ -202,6 +202,19 @@ def test_a_shape_with_writhe_gets_the_wires_twist():
     assert answer.equilibrium.scene.twist_ratio == 0.75
 
 
+@pytest.mark.parametrize("natural_curvature", [2.5, 4.0])
+def test_a_wire_that_would_wriggle_is_not_passed_on_to_a_mesh(natural_curvature, monkeypatch):
+    monkeypatch.delattr("solver.ladder.meshed.solve_on_mesh")
+    scene = replace(LOOP, natural_curvature=natural_curvature)
+    with pytest.raises(NotConvergedError, match="resistance to twist"):
+        solve_scene(scene, tolerance=0.01)
+
+
+def test_a_flat_wire_of_its_own_curvature_is_solved():
+    answer = solve_scene(LoopScene(0.0, 0.0145, 0.3, natural_curvature=1.0))
+    assert not answer.buckled
+
+
 def test_a_round_loop_needs_no_twist():
     assert solve_scene(LOOP).equilibrium.scene.twist_ratio == 0
 

@@ -29,8 +29,47 @@ def test_a_mesh_too_large_for_contact_is_told(monkeypatch):
 
 def test_contact_that_does_not_settle_is_refused_with_a_remedy(monkeypatch):
     monkeypatch.setattr(contact, "_MOST_STEPS", 2)
-    with pytest.raises(NotConvergedError, match=r"after 2 steps .* raise beta or lower strain"):
+    limit = r"after 2 steps of at most 2 with contact: .* beta = 0\.0145 and strain = 2"
+    remedy = r"raise beta or lower strain, or take the shape without contact \(--contact off\)"
+    with pytest.raises(NotConvergedError, match=f"{limit}.*{remedy}"):
         solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5)
+
+
+def test_a_coarser_mesh_that_has_a_shape_is_told(monkeypatch):
+    solve = meshed.solve_on_mesh
+
+    def refusing(scene, refinement, **options):
+        if refinement == 4:
+            raise NotConvergedError("tired")
+        return solve(scene, refinement, **options)
+
+    monkeypatch.setattr(meshed, "solve_on_mesh", refusing)
+    loop = LoopScene(0.3, 0.0145, 0.3)
+    told = r"tired, or allow a tolerance above 1\.5e-03: the mesh before, of 1280 triangles"
+    with pytest.raises(NotConvergedError, match=told):
+        solve_scene(loop, fidelity=Fidelity.MESH, tolerance=1e-3)
+    answer = solve_scene(loop, fidelity=Fidelity.MESH, tolerance=1.6e-3)
+    assert len(answer.equilibrium.mesh.triangles) == 1280
+
+
+def test_a_wire_that_would_wriggle_is_refused_on_the_coarsest_mesh(monkeypatch):
+    solve = meshed.solve_on_mesh
+
+    def refusing(scene, refinement, **options):
+        assert refinement == 2
+        return solve(scene, refinement, **options)
+
+    monkeypatch.setattr(meshed, "solve_on_mesh", refusing)
+    wriggling = LoopScene(0.3, 0.0145, 0.3, natural_curvature=4.0)
+    with pytest.raises(NotConvergedError, match=r"resistance to twist.*lower natural_curvature"):
+        solve_scene(wriggling, fidelity=Fidelity.MESH, tolerance=1e-3)
+
+
+def test_a_flat_wire_of_its_own_curvature_does_not_wriggle():
+    answer = solve_scene(
+        LoopScene(0.0, 0.0145, 0.3, natural_curvature=1.0), fidelity=Fidelity.MESH, tolerance=0.01
+    )
+    assert not answer.buckled
 
 
 def test_who_asks_for_the_shape_nevertheless_is_told_what_it_lacks(monkeypatch):
