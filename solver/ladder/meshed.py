@@ -11,6 +11,7 @@ import numpy as np
 from solver.checks import CONTACT
 from solver.errors import NotConvergedError
 from solver.ladder.answer import Answer, Rung
+from solver.ladder.budget import MOST_WORK, Budget
 from solver.ladder.contact import (
     ContactChoice,
     InContact,
@@ -18,7 +19,7 @@ from solver.ladder.contact import (
     finest_in_contact,
     refuse_what_meets_itself,
 )
-from solver.ladder.edges import MOST_TRIANGLES, edges_of_a_loop
+from solver.ladder.edges import MOST_TRIANGLES, edges_of_a_loop, loop_vertices
 from solver.mesh.any_scene import MeshScene, fabric_of, size_of, twisted
 from solver.mesh.drawing import SEGMENTS
 from solver.mesh.equilibrium import MeshEquilibrium
@@ -39,6 +40,8 @@ _COARSEST_LOOP, _COARSEST_ARRAY = 2, 1
 _MANY_LOOPS = 9
 _FLAT = 1e-6
 """Height over the loops' mean radius up to which a shape is flat."""
+_MOST_STEPS = 500
+"""On one mesh of a loop, where the budget allows as many."""
 _SHARES_OF_ERROR = 3.0
 """A second-order error is a third of its change from the mesh with edges twice as long."""
 
@@ -53,6 +56,7 @@ def by_mesh(
     refinement: int | None = None,
     told: Callable[[str], None] = lambda _: None,
     contact: ContactChoice = ContactChoice.AUTO,
+    part_of_work: float = 1.0,
 ) -> Answer:
     """Refine until a third of the last change in height is the error allowed.
 
@@ -66,18 +70,28 @@ def by_mesh(
         Told of every mesh before it is solved.
     contact : ContactChoice
         ``off`` gives a shape that meets itself as it is, and tells it.
+    part_of_work : float
+        How much of what one answer may take; see `solver.ladder.budget`.
     """
     refinements = _refinements(scene, refinement)
     if contact is ContactChoice.AUTO and not lenient:
         alone = partial(_solved, segments=SEGMENTS, field=False, lenient=True)
         refuse_what_meets_itself(scene, refinements[0], alone)
+    budget = Budget(part_of_work * MOST_WORK)
     found = _refined(
-        scene, tolerance, refinements, told, contact, lenient=lenient, add_twist=add_twist
+        scene,
+        tolerance,
+        refinements,
+        told,
+        contact,
+        budget=budget,
+        lenient=lenient,
+        add_twist=add_twist,
     )
     tolerance = math.inf if refinement is not None else tolerance
     if found.scene != scene:
         reason = f"{reason}; {TWIST_ADDED}"
-    return _mesh_answer(found, reason, tolerance, contact, lenient=lenient)
+    return _mesh_answer(found, reason, tolerance, contact, budget, lenient=lenient)
 
 
 def _refinements(scene: MeshScene, only: int | None) -> range:
@@ -96,18 +110,19 @@ def _refined(
     told: Callable[[str], None],
     choice: ContactChoice,
     *,
+    budget: Budget,
     lenient: bool,
     add_twist: bool,
 ) -> MeshEquilibrium:
     """Solve on finer and finer meshes; from where plain fabric goes slack, with a tension field."""
-    contact = InContact(scene, choice)
+    contact = InContact(scene, choice, budget)
     refinement = refinements[0]
     field = _slack_for_sure(scene)
     # one mesh asked for by its refinement is that of loops as they are elsewhere
     segments = edges_of_a_loop(scene) if len(refinements) > 1 else SEGMENTS
     while True:
         told(f"mesh refined {refinement} times")
-        found = _solved(scene, refinement, segments=segments, field=field, lenient=lenient)
+        found = _solved(scene, refinement, budget, segments=segments, field=field, lenient=lenient)
         field = found.tension_field
         found = contact.solved(found, refinement, lenient=lenient)
         # where a shape passes through itself its writhe jumps and tells nothing
@@ -120,15 +135,17 @@ def _refined(
                     refinements,
                     told,
                     choice,
+                    budget=budget,
                     lenient=lenient,
                     add_twist=False,
                 )
             except NotConvergedError:
                 add_twist = False  # the account of what is left out tells the twist
-        _check_converged(found, choice, lenient=lenient)
+        _check_converged(found, choice, budget, lenient=lenient)
         # two coarse meshes may agree by chance
         settled = refinement > _COARSEST_ARRAY and _mesh_error(found) <= tolerance
-        if settled or refinement >= refinements[-1] or _finest(scene, found, refinement, choice):
+        last = refinement >= refinements[-1] or _finest(scene, found, refinement, choice)
+        if settled or last or not _affords_finer(budget, found):
             return found
         refinement += 1
 
@@ -145,27 +162,60 @@ def _slack_for_sure(scene: MeshScene) -> bool:
     return plain and scene.gaps_kept
 
 
-def _solved(
-    scene: MeshScene, refinement: int, *, segments: int, field: bool, lenient: bool
+def _affords_finer(budget: Budget, found: MeshEquilibrium) -> bool:
+    """Whether a mesh of four times the triangles can be begun: a loop's, or any with contact."""
+    contact = found.contact is not None
+    limited = contact or isinstance(found.scene, LoopScene)
+    finer = 4 * len(found.mesh.points)
+    return not limited or budget.allows(finer, fabric_of(found.scene).alpha, contact=contact)
+
+
+def _solved_within(
+    budget: Budget | None,
+    scene: MeshScene,
+    refinement: int,
+    *,
+    segments: int,
+    field: bool,
+    lenient: bool,
 ) -> MeshEquilibrium:
+    """Solve one mesh, that of a loop within the budget."""
+    solve = partial(
+        solve_on_mesh,
+        scene,
+        refinement,
+        segments=segments,
+        tension_field=field,
+        allow_unreliable=lenient,
+    )
+    if budget is None or not isinstance(scene, LoopScene):
+        return solve()
+    vertices = loop_vertices(segments, refinement)
+    found = solve(most_steps=budget.steps(_MOST_STEPS, vertices, scene.alpha))
+    budget.spend(found.work, scene.alpha)
+    return found
+
+
+def _solved(
+    scene: MeshScene,
+    refinement: int,
+    budget: Budget | None = None,
+    *,
+    segments: int,
+    field: bool,
+    lenient: bool,
+) -> MeshEquilibrium:
+    solve = partial(_solved_within, budget, scene, refinement, segments=segments)
     loop = fabric_of(scene)
     knows_field = loop.modulus_ratio == 1
     if not field:
         # a plain solve that fails may be one that wrinkles: the tension field has its turn
-        found = solve_on_mesh(
-            scene,
-            refinement,
-            segments=segments,
-            tension_field=False,
-            allow_unreliable=lenient or knows_field,
-        )
+        found = solve(field=False, lenient=lenient or knows_field)
         slack = loop.strain > 0 and wrinkles_escape(found)
         if not (knows_field and (slack or found.status != "converged")):
             return found
     # and so may one be that meets itself: contact has its turn
-    return solve_on_mesh(
-        scene, refinement, segments=segments, tension_field=True, allow_unreliable=True
-    )
+    return solve(field=True, lenient=True)
 
 
 def _finest(
@@ -180,11 +230,14 @@ def _finest(
     return slackened or large or beyond_help or finest_in_contact(found)
 
 
-def _check_converged(found: MeshEquilibrium, choice: ContactChoice, *, lenient: bool) -> None:
+def _check_converged(
+    found: MeshEquilibrium, choice: ContactChoice, budget: Budget, *, lenient: bool
+) -> None:
     # what meets itself is refused for that, with what would mend it
     told = choice is ContactChoice.AUTO and found.meets_itself
     if not (lenient or found.status == "converged" or told):
-        raise NotConvergedError(found.status)
+        spent = f"; one answer may take {MOST_WORK} steps times vertices"
+        raise NotConvergedError(found.status + (spent if budget.ran_short else ""))
 
 
 def _mesh_error(found: MeshEquilibrium) -> float:
@@ -216,11 +269,13 @@ def _how_it_meets(found: MeshEquilibrium) -> str:
     return f"parts come as near as {apart:.2g} of what the wire's thickness allows"
 
 
-def _error_remedy(found: MeshEquilibrium, error: float) -> str:
+def _error_remedy(found: MeshEquilibrium, error: float, budget: Budget) -> str:
     triangles = len(found.mesh.triangles)
     remedy = "allow a larger tolerance"
     if 4 * triangles > MOST_TRIANGLES and not isinstance(found.scene, LoopScene):
         remedy += " or solve fewer loops"
+    elif budget.ran_short:
+        remedy += f"; a finer one would take more than {MOST_WORK} steps times vertices"
     return (
         f"the finest mesh, of {triangles} triangles, still errs by {error:.1e} in the height; "
         f"{remedy}"
@@ -232,6 +287,7 @@ def _mesh_answer(
     reason: str,
     tolerance: float,
     contact: ContactChoice,
+    budget: Budget,
     *,
     lenient: bool,
 ) -> Answer:
@@ -245,7 +301,7 @@ def _mesh_answer(
     if found.contact is not None and found.distances.crossings:
         faults.append("the shape still passes through itself; raise beta or lower strain")
     if error > tolerance:
-        faults.append(_error_remedy(found, error))
+        faults.append(_error_remedy(found, error, budget))
     if faults and not lenient:
         raise NotConvergedError("; ".join(faults))
     if found.contact is not None:

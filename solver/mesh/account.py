@@ -66,6 +66,7 @@ def account(
         lowest_eigenvalue=_lowest_eigenvalue(last, mesh),
         steps=sum(s.minimum.steps for s in solved),
         factorizations=sum(s.minimum.factorizations for s in solved),
+        work=sum(s.minimum.steps * len(s.minimum.positions) for s in solved),
         height=total_height(positions, mesh.wires),
         loop_heights=loop_heights(positions, mesh.wires),
         coarser_height=math.nan if coarser is None else total_height(coarser, before.wires),

@@ -65,6 +65,8 @@ class MeshEquilibrium:
         such as the turn of a round loop's fabric under its saddle, or hinges of an array.
     steps, factorizations : int
         On all meshes together.
+    work : int
+        Sum of the steps, each times the vertices of its mesh.
     height : float
         From the lowest to the highest point of all wires, along the axis of their area vector.
     loop_heights : array (w,)
@@ -105,6 +107,7 @@ class MeshEquilibrium:
     smallest_stress: float
     compressed_fraction: float
     tension_field: bool = False
+    work: int = 0
     perimeter: float = 2 * np.pi
     free_motions: int | None = None
     contact: ContactAccount | None = None
