@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 
 from solver.errors import NotConvergedError
 from solver.mesh.account import account
-from solver.mesh.any_scene import MeshScene, fabric_of, thickest_wire, with_strain
+from solver.mesh.any_scene import (
+    MeshScene,
+    fabric_of,
+    thickest_wire,
+    wires_of,
+    with_strain,
+)
 from solver.mesh.contact_energy import CONTACT_TERM, ContactEnergy, ContactFactoriser
 from solver.mesh.descent import Solved, gradient_limit, mass_of
 from solver.mesh.drawing import SEGMENTS
@@ -30,6 +36,7 @@ from solver.mesh.sheet_unit import in_unit_of
 from solver.mesh.solve_any import solve_on_mesh
 from solver.mesh.solve_sheet import free_motions
 from solver.mesh.thickness import thickness_barriers
+from solver.round_wire import solid_diameter
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
@@ -38,6 +45,7 @@ _FREE_PARTS = (0.5, 0.25, 0.1, 0.03, 0.01, 0.0)
 """Of the prestrain: where to begin, the largest that will do."""
 _FREE_PARTS_OF_MANY = (0.1, 0.03, 0.01, 0.0)
 """The same where loops act on each other and soon meet: what meets itself takes long to solve."""
+_ROUNDING = 1e-9
 _RAISES = 4
 """Steps from there to the whole prestrain."""
 _STEPS_ON_THE_WAY = 100
@@ -104,7 +112,8 @@ def _free_shape(
 ) -> tuple[float, Vectors]:
     """Give a part of the prestrain at which the shape keeps its thickness, and its positions."""
     strain = fabric_of(scene).strain
-    for part in _free_parts(scene, largest):
+    no_wire = _thicker_than_a_wire(scene)
+    for part in [0.0] if no_wire else _free_parts(scene, largest):
         found = solve_on_mesh(
             with_strain(scene, part * strain),
             refinement,
@@ -116,8 +125,18 @@ def _free_shape(
         clear = math.isfinite(energy.value(found.positions))
         if clear and found.distances.crossings == 0:
             return part, found.positions
-    raise NotConvergedError(
-        "contact: the shape meets itself at every prestrain; take a thinner wire or larger loops"
+    remedy = no_wire or "take a thinner wire or larger loops"
+    raise NotConvergedError(f"contact: the shape meets itself at every prestrain; {remedy}")
+
+
+def _thicker_than_a_wire(scene: MeshScene) -> str:
+    """Say that a β and k are those of no wire, which cannot be bent into such a loop."""
+    solid = max(solid_diameter(wire.beta, wire.axial_stiffness) for wire in wires_of(scene))
+    if solid <= (1 + _ROUNDING) * thickest_wire(scene):
+        return ""
+    return (
+        f"a solid wire with this beta and axial stiffness is {solid:.2g} R thick: "
+        "lower beta or raise the axial stiffness"
     )
 
 

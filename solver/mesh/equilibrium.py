@@ -8,11 +8,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.mesh.any_scene import MeshScene, size_of, thickest_wire
+from solver.mesh.any_scene import MeshScene, fabric_of, size_of, thickest_wire
 from solver.mesh.self_contact import LOOKED, SelfContact, self_contact
 from solver.mesh.triangulation import Mesh
 
 Vectors = NDArray[np.float64]
+
+
+_CONTRACTION = 1.1
+"""Of released fabric, over that of free fabric without wires: softer and stiffer wires mix."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,8 +125,11 @@ class MeshEquilibrium:
     @cached_property
     def distances(self) -> SelfContact:
         """How near the shape comes to itself."""
-        looked = max(LOOKED * size_of(self.scene), 2 * self.wire_diameter)
-        return self_contact(self.mesh, self.positions, looked)
+        thick = self.wire_diameter
+        looked = max(LOOKED * size_of(self.scene), 2 * thick)
+        # flat fabric that is released from the hoop brings its own neighbours so near
+        released = _CONTRACTION * (1 + fabric_of(self.scene).strain) * thick
+        return self_contact(self.mesh, self.positions, looked, neighbours=released)
 
     @property
     def meets_itself(self) -> bool:
