@@ -21,16 +21,17 @@ class Budget:
 
     Attributes
     ----------
+    work : float
     ran_short : bool
         Whether a solve was given fewer steps than it asked for, or a mesh was not begun.
     """
 
     def __init__(self, work: float = MOST_WORK) -> None:
-        self._left = float(work)
+        self.work = float(work)
         self.ran_short = False
 
     def _steps_left(self, vertices: int, alpha: float, *, contact: bool) -> int:
-        return int(self._left / (vertices * _cost(alpha, contact=contact)))
+        return int(self.work / (vertices * _cost(alpha, contact=contact)))
 
     def allows(self, vertices: int, alpha: float, *, contact: bool = False) -> bool:
         """Whether enough is left to begin a mesh of so many vertices."""
@@ -46,7 +47,7 @@ class Budget:
 
     def spend(self, work: float, alpha: float, *, contact: bool = False) -> None:
         """Count the steps times vertices that a solve took."""
-        self._left -= work * _cost(alpha, contact=contact)
+        self.work -= work * _cost(alpha, contact=contact)
 
 
 def _cost(alpha: float, *, contact: bool) -> float:

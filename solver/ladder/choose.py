@@ -14,6 +14,7 @@ from solver.checks import SLACK, TWIST
 from solver.compact import solve_loop
 from solver.errors import SceneError
 from solver.ladder.answer import Answer, Rung
+from solver.ladder.budget import MOST_WORK, Budget
 from solver.ladder.contact import ContactChoice
 from solver.ladder.fabric_share import curved_fabric
 from solver.ladder.fidelity import Fidelity
@@ -36,7 +37,7 @@ hundredth."""
 _ASKED = "asked for"
 _PART_OF_TOLERANCE = 0.3
 _HALF = 0.5
-"""Of the work on meshes, for fabric without bending stiffness and for that with it."""
+"""Of the work on meshes, for fabric without bending stiffness; the rest is for that with it."""
 _WITH_BENDING = "the fabric's bending was added"
 _CHEAPEST = "a smooth basis is the cheapest that meets the tolerance for one loop"
 
@@ -128,12 +129,13 @@ def _with_bending_if_it_matters(
         bent = _smooth(scene, f"{_CHEAPEST}; {_WITH_BENDING}", tolerance)
         if _stands(bent):
             return bent
-        mesh = partial(mesh, part_of_work=_HALF)
         # bent as little as fabric that resists it, limp fabric would have this share or more
         if _reliable(bent, tolerance) and not _hardly_bends(bent, scene, tolerance):
             return _by_compact_or_mesh(scene, bent.reason, tolerance, mesh, lenient=lenient)
-        forgiving = partial(mesh, lenient=True)
+        half = Budget(_HALF * MOST_WORK)
+        forgiving = partial(mesh, lenient=True, budget=half)
         bare = _by_compact_or_mesh(limp, _CHEAPEST, tolerance, forgiving, lenient=True)
+        mesh = partial(mesh, budget=Budget((1 - _HALF) * MOST_WORK + half.work))
     curved = curved_fabric(bare, scene)
     if curved is None:  # no law knows such fabric
         return bare

@@ -56,7 +56,7 @@ def by_mesh(
     refinement: int | None = None,
     told: Callable[[str], None] = lambda _: None,
     contact: ContactChoice = ContactChoice.AUTO,
-    part_of_work: float = 1.0,
+    budget: Budget | None = None,
 ) -> Answer:
     """Refine until a third of the last change in height is the error allowed.
 
@@ -70,14 +70,14 @@ def by_mesh(
         Told of every mesh before it is solved.
     contact : ContactChoice
         ``off`` gives a shape that meets itself as it is, and tells it.
-    part_of_work : float
-        How much of what one answer may take; see `solver.ladder.budget`.
+    budget : Budget, optional
+        Work that may be spent; by default all that one answer may take.
     """
     refinements = _refinements(scene, refinement)
     if contact is ContactChoice.AUTO and not lenient:
         alone = partial(_solved, segments=SEGMENTS, field=False, lenient=True)
         refuse_what_meets_itself(scene, refinements[0], alone)
-    budget = Budget(part_of_work * MOST_WORK)
+    budget = budget or Budget(MOST_WORK)
     found = _refined(
         scene,
         tolerance,

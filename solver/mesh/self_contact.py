@@ -175,7 +175,7 @@ def self_contact(
 ) -> SelfContact:
     """Measure how near a mesh at positions (n, 3) comes to itself, as far as ``within``.
 
-    Parts that lie nearer than ``neighbours`` when flat are left out, as those within `NEIGHBOURS`.
+    Parts that lie nearer than ``neighbours`` when flat, in units of R, are left out too.
     """
     near = max(neighbours, NEIGHBOURS * _half_width(mesh))
     wires = _parts(np.concatenate([wire.edges for wire in mesh.wires]), mesh, positions)
