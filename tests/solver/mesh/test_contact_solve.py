@@ -70,13 +70,13 @@ def test_a_loop_that_touches_nothing_is_as_without_contact(field):
     "scene",
     [
         replace(OPEN, axial_stiffness=0.01),
-        ArrayScene(replace(OPEN, beta=3.0, strain=0.01), 2, 2, Between.KEPT),
+        ArrayScene(replace(OPEN, axial_stiffness=0.01), 2, 2, Between.KEPT),
     ],
     ids=["loop", "array"],
 )
 def test_flat_fabric_with_thick_wires_does_not_meet_itself(scene):
     flat = solve_on_mesh(scene, 1, tension_field=False, allow_unreliable=False)
-    assert flat.height < 1e-6
+    assert flat.loop_heights.max() < 1e-3
     assert flat.wire_diameter > 0.3
     assert not flat.meets_itself
 
