@@ -17,7 +17,12 @@ def round_diameter(beta: float, axial_stiffness: float, half_width: float) -> fl
     (docs/theory.md, eq. (10)). An axial stiffness that is not a solid wire's may ask for more than
     a wire's thickness, which is cut off at half the smaller half-width of its loop.
     """
-    return min(math.sqrt(32 * beta / axial_stiffness), _THICKEST * half_width)
+    return min(solid_diameter(beta, axial_stiffness), _THICKEST * half_width)
+
+
+def solid_diameter(beta: float, axial_stiffness: float) -> float:
+    """Diameter of a solid round wire with such β and k, eq. (10), however thick that is."""
+    return math.sqrt(32 * beta / axial_stiffness)
 
 
 def wire_diameter(scene: LoopScene) -> float:

@@ -14,6 +14,7 @@ from solver.checks import OWN_CURVATURE, SLACK, TWIST
 from solver.compact import solve_loop
 from solver.errors import SceneError
 from solver.ladder.answer import Answer, Rung
+from solver.ladder.budget import MOST_WORK, Budget
 from solver.ladder.contact import ContactChoice
 from solver.ladder.fabric_share import curved_fabric
 from solver.ladder.fidelity import Fidelity
@@ -35,6 +36,9 @@ ARRAY_TOLERANCE = 0.1
 hundredth."""
 
 _PART_OF_TOLERANCE = 0.3
+_HALF = 0.5
+"""Of the work on meshes, for fabric without bending stiffness; the rest is for that with it."""
+_WITH_BENDING = "the fabric's bending was added"
 _CHEAPEST = "a smooth basis is the cheapest that meets the tolerance for one loop"
 
 
@@ -116,33 +120,58 @@ def _by_cheapest(scene: LoopScene, tolerance: float, mesh: _Mesh, *, lenient: bo
 def _with_bending_if_it_matters(
     scene: LoopScene, tolerance: float, mesh: _Mesh, *, lenient: bool
 ) -> Answer:
-    """Leave the fabric's bending out where what it would change is well within the tolerance."""
-    limp, forgiving = replace(scene, alpha=0.0), partial(mesh, lenient=True)
-    bare = _by_compact_or_mesh(limp, _CHEAPEST, tolerance, forgiving, lenient=True)
-    found, curved = bare.equilibrium, curved_fabric(bare, scene)
-    if found is None or curved is None:  # no law knows such fabric
+    """Leave the fabric's bending out where what it would change is well within the tolerance.
+
+    Where fabric is slack without it, it may be taut with it, and a smooth basis tells that in a
+    hundredth of a mesh's time.
+    """
+    limp = replace(scene, alpha=0.0)
+    bare = _smooth(limp, _CHEAPEST, tolerance)
+    if not _stands(bare):
+        bent = _smooth(scene, f"{_CHEAPEST}; {_WITH_BENDING}", tolerance)
+        if _stands(bent):
+            return bent
+        # bent as little as fabric that resists it, limp fabric would have this share or more
+        if _reliable(bent, tolerance) and not _hardly_bends(bent, scene, tolerance):
+            return _by_compact_or_mesh(scene, bent.reason, tolerance, mesh, lenient=lenient)
+        half = Budget(_HALF * MOST_WORK)
+        forgiving = partial(mesh, lenient=True, budget=half)
+        bare = _by_compact_or_mesh(limp, _CHEAPEST, tolerance, forgiving, lenient=True)
+        mesh = partial(mesh, budget=Budget((1 - _HALF) * MOST_WORK + half.work))
+    curved = curved_fabric(bare, scene)
+    if curved is None:  # no law knows such fabric
         return bare
-    share = curved.bending_share(scene.alpha)
-    settled = found.status == "converged" and bare.height_error <= tolerance
-    if settled and share <= _PART_OF_TOLERANCE * tolerance:
+    if _reliable(bare, tolerance) and _hardly_bends(bare, scene, tolerance):
         return replace(bare, omitted=(*bare.omitted, *curved.left_out(scene)))
-    reason = f"{_CHEAPEST}; the fabric's bending was added: {share:.2g} of what buckling releases"
+    share = curved.bending_share(scene.alpha)
+    reason = f"{_CHEAPEST}; {_WITH_BENDING}: {share:.2g} of what buckling releases"
     return _by_compact_or_mesh(scene, reason, tolerance, mesh, lenient=lenient)
+
+
+def _reliable(answer: Answer, tolerance: float) -> bool:
+    found = answer.equilibrium
+    converged = found is not None and found.status == "converged"
+    fatal = any(left.fatal for left in answer.omitted)
+    return converged and not fatal and answer.height_error <= tolerance
+
+
+def _hardly_bends(answer: Answer, scene: LoopScene, tolerance: float) -> bool:
+    """Whether the fabric's bending, on a solved shape, is well within the tolerance."""
+    curved = curved_fabric(answer, scene)
+    share = 0.0 if curved is None else curved.bending_share(scene.alpha)
+    return share <= _PART_OF_TOLERANCE * tolerance
 
 
 def _by_compact_or_mesh(
     scene: LoopScene, reason: str, tolerance: float, mesh: _Mesh, *, lenient: bool
 ) -> Answer:
     """Solve in the smooth basis; where the fabric goes slack, on a mesh with a tension field."""
-    smooth = _by_compact(scene, reason, tolerance, lenient=True)
-    if _lacks_twist(scene, smooth):
-        scene = replace(scene, twist_ratio=ROUND_WIRE_TWIST_RATIO)
-        reason = f"{reason}; {TWIST_ADDED}"
-        smooth = _by_compact(scene, reason, tolerance, lenient=True)
-    found = smooth.equilibrium
-    slack = _matters(smooth, SLACK)
-    if found is not None and found.status == "converged" and not slack:
+    smooth = _smooth(scene, reason, tolerance)
+    if _stands(smooth):
         return smooth
+    if smooth.reason != reason:  # the wire's twist was added
+        scene, reason = replace(scene, twist_ratio=ROUND_WIRE_TWIST_RATIO), smooth.reason
+    slack = _matters(smooth, SLACK)
     # a mesh knows no more of what would stop a wire that wriggles
     if _matters(smooth, OWN_CURVATURE):
         return _by_compact(scene, reason, tolerance, lenient=lenient)
@@ -150,6 +179,22 @@ def _by_compact_or_mesh(
     added = "a mesh" if scene.alpha > 0 else "a mesh with a tension field"
     reason = f"{why}: {added} was added"
     return mesh(scene, reason, tolerance, add_twist=True)
+
+
+def _smooth(scene: LoopScene, reason: str, tolerance: float) -> Answer:
+    """Solve in the smooth basis, with the wire's twist where the shape without it writhes."""
+    smooth = _by_compact(scene, reason, tolerance, lenient=True)
+    if not _lacks_twist(scene, smooth):
+        return smooth
+    scene = replace(scene, twist_ratio=ROUND_WIRE_TWIST_RATIO)
+    return _by_compact(scene, f"{reason}; {TWIST_ADDED}", tolerance, lenient=True)
+
+
+def _stands(smooth: Answer) -> bool:
+    """Whether a smooth shape is an answer: settled, and of fabric that is taut."""
+    found = smooth.equilibrium
+    settled = found is not None and found.status == "converged"
+    return settled and not _matters(smooth, SLACK)
 
 
 def _lacks_twist(scene: LoopScene, answer: Answer) -> bool:

@@ -10,7 +10,8 @@ from enum import StrEnum
 import numpy as np
 
 from solver.errors import NotConvergedError
-from solver.mesh.any_scene import MeshScene
+from solver.ladder.budget import MOST_WORK, Budget
+from solver.mesh.any_scene import MeshScene, fabric_of
 from solver.mesh.array_mesh import array_fan
 from solver.mesh.barrier import REMEDY, contact_available
 from solver.mesh.contact_solve import solve_in_contact
@@ -25,9 +26,8 @@ LARGEST_IN_CONTACT = 6000
 """Triangles of a mesh on which contact is not even begun."""
 WITHOUT = "take the shape without contact (--contact off), which tells how often it crosses itself"
 
-_MOST_STEPS = 150
-"""Of the last solve with contact, each of which costs as much as many without: what has not settled
-by then is refused rather than waited for."""
+_MOST_STEPS = 1500
+"""With contact on one mesh, where the budget allows as many."""
 _SAMPLE = 2
 """Rows and columns, at most, of the array that tells whether a large one meets itself."""
 
@@ -42,8 +42,9 @@ class ContactChoice(StrEnum):
 class InContact:
     """Solves again, with contact, what meets itself; from then on every mesh."""
 
-    def __init__(self, scene: MeshScene, choice: ContactChoice) -> None:
+    def __init__(self, scene: MeshScene, choice: ContactChoice, budget: Budget) -> None:
         self._scene = scene
+        self._budget = budget
         self._wanted = choice is ContactChoice.AUTO
         self._last: MeshEquilibrium | None = None
 
@@ -53,16 +54,12 @@ class InContact:
         small = len(found.mesh.triangles) <= LARGEST_IN_CONTACT
         if not (needed and small and contact_available()):
             return found
-        before = self._last.contact if self._last else None
-        solved = solve_in_contact(
-            self._scene,
-            refinement=refinement,
-            most_steps=_MOST_STEPS,
-            tension_field=found.tension_field,
-            allow_unreliable=lenient,
-            before=found.distances,
-            largest_part=before.begun_at if before else 1.0,
-        )
+        try:
+            solved = self._kept_apart(found, refinement, lenient=lenient)
+        except NotConvergedError:
+            if lenient:
+                return found
+            raise
         last = self._last
         self._last = replace(
             solved,
@@ -70,6 +67,37 @@ class InContact:
             coarser_loop_heights=np.zeros(0) if last is None else last.loop_heights,
         )
         return self._last
+
+    def _kept_apart(
+        self, found: MeshEquilibrium, refinement: int, *, lenient: bool
+    ) -> MeshEquilibrium:
+        before = self._last.contact if self._last else None
+        vertices, alpha = len(found.mesh.points), fabric_of(self._scene).alpha
+        solved = solve_in_contact(
+            self._scene,
+            refinement=refinement,
+            most_steps=self._budget.steps(_MOST_STEPS, vertices, alpha, contact=True),
+            tension_field=found.tension_field,
+            allow_unreliable=True,
+            before=found.distances,
+            largest_part=before.begun_at if before else 1.0,
+        )
+        self._budget.spend(solved.work, alpha, contact=True)
+        if not (lenient or solved.status == "converged"):
+            raise NotConvergedError(_unsettled(solved))
+        return solved
+
+
+def _unsettled(found: MeshEquilibrium) -> str:
+    """Say what keeps a shape with contact from being an answer."""
+    if not found.status.startswith("not converged"):
+        return found.status
+    vertices = len(found.mesh.points)
+    return (
+        f"contact: not settled after {found.work // vertices} steps on {vertices} vertices "
+        f"(gradient {found.gradient_norm:.1e}), of {MOST_WORK} steps times vertices that one "
+        f"answer may take; raise beta or lower strain, or {WITHOUT}"
+    )
 
 
 def finest_in_contact(found: MeshEquilibrium) -> bool:

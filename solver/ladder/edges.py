@@ -22,6 +22,12 @@ def edges_of_a_loop(scene: MeshScene) -> int:
     return next(fitting, SEGMENTS)
 
 
+def loop_vertices(segments: int, refinement: int) -> int:
+    """Vertices of one loop's mesh: rings of so many, twice, … round a middle, split so often."""
+    rings = 2**refinement
+    return 1 + segments * rings * (rings + 1) // 2
+
+
 def _triangles(scene: ArrayScene, segments: int, refinement: int) -> int:
     coarsest = array_fan(scene.grid, scene.between, scene.loop.axis_ratio, segments)
     return len(coarsest.triangles) * 4**refinement

@@ -9,6 +9,7 @@ from functools import partial
 from solver.checks import CONTACT, OWN_CURVATURE
 from solver.errors import NotConvergedError
 from solver.ladder.answer import Answer, Rung
+from solver.ladder.budget import MOST_WORK, Budget
 from solver.ladder.contact import (
     ContactChoice,
     InContact,
@@ -16,7 +17,7 @@ from solver.ladder.contact import (
     finest_in_contact,
     refuse_what_meets_itself,
 )
-from solver.ladder.edges import MOST_TRIANGLES, edges_of_a_loop
+from solver.ladder.edges import MOST_TRIANGLES, edges_of_a_loop, loop_vertices
 from solver.ladder.mesh_error import FLAT, mesh_error
 from solver.ladder.refusal import refused
 from solver.mesh.any_scene import MeshScene, fabric_of, size_of, twisted
@@ -36,6 +37,8 @@ TWIST_ADDED = "the wire's twist was added, for the shape without it has writhe"
 _COARSEST_LOOP, _COARSEST_ARRAY = 2, 1
 """Refinements of the first mesh that is solved for itself."""
 _MANY_LOOPS = 9
+_MOST_STEPS = 500
+"""On one mesh of a loop, where the budget allows as many."""
 
 
 def by_mesh(
@@ -48,6 +51,7 @@ def by_mesh(
     refinement: int | None = None,
     told: Callable[[str], None] = lambda _: None,
     contact: ContactChoice = ContactChoice.AUTO,
+    budget: Budget | None = None,
 ) -> Answer:
     """Refine until what the height may still change by is the error allowed.
 
@@ -61,18 +65,28 @@ def by_mesh(
         Told of every mesh before it is solved.
     contact : ContactChoice
         ``off`` gives a shape that meets itself as it is, and tells it.
+    budget : Budget, optional
+        Work that may be spent; by default all that one answer may take.
     """
     refinements = _refinements(scene, refinement)
     if contact is ContactChoice.AUTO and not lenient:
         alone = partial(_solved, segments=SEGMENTS, field=False)
         refuse_what_meets_itself(scene, refinements[0], alone)
+    budget = budget or Budget(MOST_WORK)
     found, error = _refined(
-        scene, tolerance, refinements, told, contact, lenient=lenient, add_twist=add_twist
+        scene,
+        tolerance,
+        refinements,
+        told,
+        contact,
+        budget=budget,
+        lenient=lenient,
+        add_twist=add_twist,
     )
     tolerance = math.inf if refinement is not None else tolerance
     if found.scene != scene:
         reason = f"{reason}; {TWIST_ADDED}"
-    return _mesh_answer(found, error, reason, tolerance, contact, lenient=lenient)
+    return _mesh_answer((found, error), reason, tolerance, contact, budget, lenient=lenient)
 
 
 def _refinements(scene: MeshScene, only: int | None) -> range:
@@ -91,6 +105,7 @@ def _refined(
     told: Callable[[str], None],
     choice: ContactChoice,
     *,
+    budget: Budget,
     lenient: bool,
     add_twist: bool,
 ) -> tuple[MeshEquilibrium, float]:
@@ -98,7 +113,7 @@ def _refined(
 
     Gives the last one's shape, and the error of its height.
     """
-    contact = InContact(scene, choice)
+    contact = InContact(scene, choice, budget)
     refinement = refinements[0]
     before: list[MeshEquilibrium] = []
     field = _slack_for_sure(scene)
@@ -107,7 +122,7 @@ def _refined(
     while True:
         told(f"mesh refined {refinement} times")
         try:
-            found = _solved(scene, refinement, segments=segments, field=field)
+            found = _solved(scene, refinement, budget, segments=segments, field=field)
         except NotConvergedError as fault:
             raise refused(str(fault), before) from None
         field = found.tension_field
@@ -125,16 +140,18 @@ def _refined(
                     refinements,
                     told,
                     choice,
+                    budget=budget,
                     lenient=lenient,
                     add_twist=False,
                 )
             except NotConvergedError:
                 add_twist = False  # the account of what is left out tells the twist
-        _check_converged(found, before, choice, lenient=lenient)
+        _check_converged(found, before, choice, budget, lenient=lenient)
         error = mesh_error(found, before)
         # two coarse meshes may agree by chance
         settled = (refinement > refinements[0] and error <= tolerance) or wriggles(found)
-        if settled or refinement >= refinements[-1] or _finest(scene, found, refinement, choice):
+        last = refinement >= refinements[-1] or _finest(scene, found, refinement, choice)
+        if settled or last or not _affords_finer(budget, found):
             return found, error
         before.append(found)
         refinement += 1
@@ -151,24 +168,47 @@ def _slack_for_sure(scene: MeshScene) -> bool:
     return fabric.alpha == 0 and fabric.strain > 0 and scene.gaps_kept
 
 
-def _solved(scene: MeshScene, refinement: int, *, segments: int, field: bool) -> MeshEquilibrium:
+def _affords_finer(budget: Budget, found: MeshEquilibrium) -> bool:
+    """Whether a mesh of four times the triangles can be begun: a loop's, or any with contact."""
+    contact = found.contact is not None
+    limited = contact or isinstance(found.scene, LoopScene)
+    finer = 4 * len(found.mesh.points)
+    return not limited or budget.allows(finer, fabric_of(found.scene).alpha, contact=contact)
+
+
+def _solved_within(
+    budget: Budget | None, scene: MeshScene, refinement: int, *, segments: int, field: bool
+) -> MeshEquilibrium:
+    """Solve one mesh, that of a loop within the budget."""
+    solve = partial(
+        solve_on_mesh,
+        scene,
+        refinement,
+        segments=segments,
+        tension_field=field,
+        allow_unreliable=True,
+    )
+    if budget is None or not isinstance(scene, LoopScene):
+        return solve()
+    vertices = loop_vertices(segments, refinement)
+    found = solve(most_steps=budget.steps(_MOST_STEPS, vertices, scene.alpha))
+    budget.spend(found.work, scene.alpha)
+    return found
+
+
+def _solved(
+    scene: MeshScene, refinement: int, budget: Budget | None = None, *, segments: int, field: bool
+) -> MeshEquilibrium:
+    solve = partial(_solved_within, budget, scene, refinement, segments=segments)
     loop = fabric_of(scene)
     if not field:
         # a plain solve that fails may be one that wrinkles: the tension field has its turn
-        found = solve_on_mesh(
-            scene,
-            refinement,
-            segments=segments,
-            tension_field=False,
-            allow_unreliable=True,
-        )
+        found = solve(field=False)
         slack = loop.strain > 0 and wrinkles_escape(found)
         if not slack and found.status == "converged":
             return found
     # and so may one be that meets itself: contact has its turn
-    return solve_on_mesh(
-        scene, refinement, segments=segments, tension_field=True, allow_unreliable=True
-    )
+    return solve(field=True)
 
 
 def _finest(
@@ -187,13 +227,15 @@ def _check_converged(
     found: MeshEquilibrium,
     before: list[MeshEquilibrium],
     choice: ContactChoice,
+    budget: Budget,
     *,
     lenient: bool,
 ) -> None:
     # what meets itself is refused for that, with what would mend it
     told = choice is ContactChoice.AUTO and found.meets_itself
     if not (lenient or found.status == "converged" or told):
-        raise refused(found.status, before)
+        spent = f"; one answer may take {MOST_WORK} steps times vertices"
+        raise refused(found.status + (spent if budget.ran_short else ""), before)
 
 
 def _buckled(found: MeshEquilibrium) -> bool:
@@ -220,11 +262,13 @@ def _way_down(found: MeshEquilibrium) -> str:
     )
 
 
-def _error_remedy(found: MeshEquilibrium, error: float) -> str:
+def _error_remedy(found: MeshEquilibrium, error: float, budget: Budget) -> str:
     triangles = len(found.mesh.triangles)
     remedy = "allow a larger tolerance"
     if 4 * triangles > MOST_TRIANGLES and not isinstance(found.scene, LoopScene):
         remedy += " or solve fewer loops"
+    elif budget.ran_short:
+        remedy += f"; a finer one would take more than {MOST_WORK} steps times vertices"
     return (
         f"the finest mesh, of {triangles} triangles, still errs by {error:.1e} in the height; "
         f"{remedy}"
@@ -232,14 +276,15 @@ def _error_remedy(found: MeshEquilibrium, error: float) -> str:
 
 
 def _mesh_answer(
-    found: MeshEquilibrium,
-    error: float,
+    finest: tuple[MeshEquilibrium, float],
     reason: str,
     tolerance: float,
     contact: ContactChoice,
+    budget: Budget,
     *,
     lenient: bool,
 ) -> Answer:
+    found, error = finest
     omitted = mesh_omissions(found)
     off = contact is ContactChoice.OFF
     fatal = [o.term for o in omitted if o.fatal and not (off and o.term == CONTACT)]
@@ -251,7 +296,7 @@ def _mesh_answer(
     if found.contact is not None and found.distances.crossings:
         faults.append("the shape still passes through itself; raise beta or lower strain")
     if error > tolerance:
-        faults.append(_error_remedy(found, error))
+        faults.append(_error_remedy(found, error, budget))
     if faults and not lenient:
         raise NotConvergedError("; ".join(faults))
     if found.contact is not None:

@@ -60,6 +60,7 @@ def account(
         way_down=last.minimum.way_down,
         steps=sum(s.minimum.steps for s in solved),
         factorizations=sum(s.minimum.factorizations for s in solved),
+        work=sum(s.minimum.steps * s.energy.pattern.size // 3 for s in solved),
         height=total_height(positions, mesh.wires),
         loop_heights=loop_heights(positions, mesh.wires),
         coarser_height=math.nan if coarser is None else total_height(coarser, before.wires),

@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 
 from solver.errors import NotConvergedError
 from solver.mesh.account import account
-from solver.mesh.any_scene import MeshScene, fabric_of, thickest_wire, with_strain
+from solver.mesh.any_scene import (
+    MeshScene,
+    fabric_of,
+    thickest_wire,
+    wires_of,
+    with_strain,
+)
 from solver.mesh.contact_energy import CONTACT_TERM, ContactEnergy, ContactFactoriser
 from solver.mesh.descent import Solved, gradient_limit, mass_of
 from solver.mesh.drawing import SEGMENTS
@@ -30,6 +36,7 @@ from solver.mesh.sheet_unit import in_unit_of
 from solver.mesh.solve_any import solve_on_mesh
 from solver.mesh.solve_sheet import free_motions
 from solver.mesh.thickness import thickness_barriers
+from solver.round_wire import solid_diameter
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
@@ -38,9 +45,12 @@ _FREE_PARTS = (0.5, 0.25, 0.1, 0.03, 0.01, 0.0)
 """Of the prestrain: where to begin, the largest that will do."""
 _FREE_PARTS_OF_MANY = (0.1, 0.03, 0.01, 0.0)
 """The same where loops act on each other and soon meet: what meets itself takes long to solve."""
+_ROUNDING = 1e-9
 _RAISES = 4
 """Steps from there to the whole prestrain."""
-_ON_THE_WAY = SearchLimits(decrease=1e-4, steps=100)
+_STEPS_ON_THE_WAY = 100
+"""Of each search before the last; where they end is no more than where the next begins."""
+_ON_THE_WAY = SearchLimits(decrease=1e-4)
 
 
 def _problem(scene: MeshScene, refinement: int, *, field: bool) -> MeshProblem:
@@ -63,24 +73,73 @@ def _free_parts(scene: MeshScene, largest: float) -> list[float]:
     return [part for part in parts if part <= largest]
 
 
+class _Steps:
+    """Steps on the finest mesh that are left; those on coarser ones count as their part of one."""
+
+    def __init__(self, most: int, vertices: int) -> None:
+        self._most, self._vertices = most, vertices
+        self.work = 0
+
+    def at_most(self, asked: int) -> int:
+        """Give the steps of so many that are left.
+
+        Raises
+        ------
+        NotConvergedError
+            When none is.
+        """
+        left = self._most - self.work // self._vertices
+        if left <= 0:
+            raise NotConvergedError(
+                f"contact: not at the whole prestrain after {self._most} steps on "
+                f"{self._vertices} vertices, the most that it may take; raise beta or lower strain"
+            )
+        return min(asked, left)
+
+    def spend(self, work: int) -> None:
+        """Count steps times vertices."""
+        self.work += work
+
+
 def _free_shape(
-    scene: MeshScene, energy: ContactEnergy, refinement: int, largest: float, *, field: bool
+    scene: MeshScene,
+    energy: ContactEnergy,
+    refinement: int,
+    largest: float,
+    steps: _Steps,
+    *,
+    field: bool,
 ) -> tuple[float, Vectors]:
     """Give a part of the prestrain at which the shape keeps its thickness, and its positions."""
     strain = fabric_of(scene).strain
-    for part in _free_parts(scene, largest):
+    no_wire = _thicker_than_a_wire(scene)
+    for part in [0.0] if no_wire else _free_parts(scene, largest):
         found = solve_on_mesh(
             with_strain(scene, part * strain),
             refinement,
             tension_field=field,
             allow_unreliable=True,
+            most_steps=steps.at_most(_STEPS_ON_THE_WAY),
         )
+        steps.spend(found.work)
         clear = math.isfinite(energy.value(found.positions))
         if clear and found.distances.crossings == 0:
             return part, found.positions
+    remedy = no_wire or "lower beta or raise axial_stiffness"
     raise NotConvergedError(
         f"contact: a wire of diameter √(32 beta / axial_stiffness) = {thickest_wire(scene):.2g}, "
-        "over R, meets itself at every prestrain; lower beta or raise axial_stiffness"
+        f"over R, meets itself at every prestrain; {remedy}"
+    )
+
+
+def _thicker_than_a_wire(scene: MeshScene) -> str:
+    """Say that a β and k are those of no wire, which cannot be bent into such a loop."""
+    solid = max(solid_diameter(wire.beta, wire.axial_stiffness) for wire in wires_of(scene))
+    if solid <= (1 + _ROUNDING) * thickest_wire(scene):
+        return ""
+    return (
+        f"a solid wire with this beta and axial stiffness is {solid:.2g} R thick: "
+        "lower beta or raise the axial stiffness"
     )
 
 
@@ -116,7 +175,7 @@ def solve_in_contact(
     refinement: int = 2,
     tension_field: bool = False,
     backend: str | None = None,
-    most_steps: int = 500,
+    most_steps: int = 1500,
     allow_unreliable: bool = False,
     before: SelfContact | None = None,
     largest_part: float = 1.0,
@@ -127,6 +186,8 @@ def solve_in_contact(
     ----------
     before : SelfContact, optional
         How near the shape comes to itself without contact, in the scene's unit, for the account.
+    most_steps : int
+        On all the way; a step on a coarser mesh counts as the vertices that it moves.
     largest_part : float
         Of the prestrain, at which to begin: a coarser mesh tells it in its account.
 
@@ -144,20 +205,28 @@ def solve_in_contact(
     problem = _problem(scene, refinement, field=tension_field)
     mass = mass_of(problem.meshes[-1])
     energy = _energy(problem, diameter, whole)
-    part, positions = _free_shape(scene, energy, refinement, largest_part, field=tension_field)
+    left = _Steps(most_steps, len(problem.meshes[-1].points))
+    part, positions = _free_shape(
+        scene, energy, refinement, largest_part, left, field=tension_field
+    )
     solved: list[Solved] = []
     for between in np.linspace(part * whole, whole, _RAISES + 1)[1:-1]:
         partial = _energy(replace(problem, strain=float(between)), diameter, whole)
-        limits = replace(_ON_THE_WAY, steady=tension_field)
+        most = left.at_most(_STEPS_ON_THE_WAY)
+        limits = replace(_ON_THE_WAY, steps=most, steady=tension_field)
         solved.append(_raised(partial, positions, mass, limits, backend))
         positions = solved[-1].minimum.positions
-    limits = SearchLimits(gradient_limit(problem), steps=most_steps, steady=tension_field)
+        left.spend(solved[-1].minimum.steps * len(positions))
+    most = left.at_most(most_steps)
+    limits = SearchLimits(gradient_limit(problem), steps=most, steady=tension_field)
     solved.append(_raised(energy, positions, mass, limits, backend))
+    left.spend(solved[-1].minimum.steps * len(positions))
     found = account(scene, problem, solved[-1:], lenient=allow_unreliable)
     found = replace(
         found,
         steps=sum(s.minimum.steps for s in solved),
         factorizations=sum(s.minimum.factorizations for s in solved),
+        work=left.work,
         contact=_contact_account(energy, found, before, part),
     )
     if not isinstance(asked, SheetScene):

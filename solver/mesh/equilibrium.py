@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.checks import writhe
-from solver.mesh.any_scene import MeshScene, size_of, thickest_wire
+from solver.mesh.any_scene import MeshScene, fabric_of, size_of, thickest_wire
 from solver.mesh.self_contact import LOOKED, SelfContact, self_contact
 from solver.mesh.triangulation import Mesh
 
@@ -17,6 +17,8 @@ Vectors = NDArray[np.float64]
 
 
 _MOST_WRITHE_POINTS = 160
+_CONTRACTION = 1.1
+"""Of released fabric, over that of free fabric without wires: softer and stiffer wires mix."""
 
 
 def _thinned(loop: Vectors) -> Vectors:
@@ -78,6 +80,8 @@ class MeshEquilibrium:
         fabric.
     steps, factorizations : int
         On all meshes together.
+    work : int
+        Sum of the steps, each times the vertices of its mesh.
     height : float
         From the lowest to the highest point of all wires, along the axis of their area vector.
     loop_heights : array (w,)
@@ -119,6 +123,7 @@ class MeshEquilibrium:
     smallest_stress: float
     compressed_fraction: float
     tension_field: bool = False
+    work: int = 0
     perimeter: float = 2 * np.pi
     free_motions: int | None = None
     contact: ContactAccount | None = None
@@ -139,7 +144,9 @@ class MeshEquilibrium:
     @cached_property
     def distances(self) -> SelfContact:
         """How near the shape comes to itself."""
-        return self_contact(self.mesh, self.positions, self.looked)
+        # flat fabric that is released from the hoop brings its own neighbours so near
+        released = _CONTRACTION * (1 + fabric_of(self.scene).strain) * self.wire_diameter
+        return self_contact(self.mesh, self.positions, self.looked, neighbours=released)
 
     @property
     def meets_itself(self) -> bool:

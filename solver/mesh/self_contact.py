@@ -170,9 +170,14 @@ def _half_width(mesh: Mesh) -> float:
     return min(widths) if widths else float(np.mean(lengths)) / (2 * math.pi)
 
 
-def self_contact(mesh: Mesh, positions: Vectors, within: float = LOOKED) -> SelfContact:
-    """Measure how near a mesh at positions (n, 3) comes to itself, as far as ``within``."""
-    near = NEIGHBOURS * _half_width(mesh)
+def self_contact(
+    mesh: Mesh, positions: Vectors, within: float = LOOKED, neighbours: float = 0.0
+) -> SelfContact:
+    """Measure how near a mesh at positions (n, 3) comes to itself, as far as ``within``.
+
+    Parts that lie nearer than ``neighbours`` when flat, in units of R, are left out too.
+    """
+    near = max(neighbours, NEIGHBOURS * _half_width(mesh))
     wires = _parts(np.concatenate([wire.edges for wire in mesh.wires]), mesh, positions)
     triangles = _parts(mesh.triangles, mesh, positions)
     return SelfContact(

@@ -5,11 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solver.errors import NotConvergedError
+from solver.mesh.array_mesh import Between
 from solver.mesh.circle_sheet import circle_scene
 from solver.mesh.contact_energy import CONTACT_TERM
 from solver.mesh.contact_solve import solve_in_contact
 from solver.mesh.rod_energy import WireStiffness
+from solver.mesh.scene import ArrayScene
 from solver.mesh.solve import solve_loop_mesh
+from solver.mesh.solve_any import solve_on_mesh
 from solver.mesh.solve_sheet import solve_sheet
 from solver.scene import LoopScene
 
@@ -60,6 +64,37 @@ def test_a_loop_that_touches_nothing_is_as_without_contact(field):
     alone = solve_loop_mesh(OPEN, refinement=2, tension_field=field, start=start)
     assert kept.energy == pytest.approx(alone.energy, rel=1e-9)
     assert kept.height == pytest.approx(alone.height, rel=1e-6 if not field else 1e-4)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        replace(OPEN, axial_stiffness=0.01),
+        ArrayScene(replace(OPEN, axial_stiffness=0.01), 2, 2, Between.KEPT),
+    ],
+    ids=["loop", "array"],
+)
+def test_flat_fabric_with_thick_wires_does_not_meet_itself(scene):
+    flat = solve_on_mesh(scene, 1, tension_field=False, allow_unreliable=False)
+    assert flat.loop_heights.max() < 1e-3
+    assert flat.wire_diameter > 0.3
+    assert not flat.meets_itself
+
+
+def test_a_wire_that_is_none_is_named_where_it_meets_itself():
+    """Its bending opens it to several times its length."""
+    array = ArrayScene(replace(OPEN, beta=1e6), 2, 2, Between.KEPT)
+    with pytest.raises(NotConvergedError, match=r"1\.8e\+02 R thick: lower beta"):
+        solve_in_contact(array, refinement=0, tension_field=True)
+
+
+def test_the_steps_of_the_whole_way_are_limited():
+    with pytest.raises(NotConvergedError, match="after 30 steps on 201 vertices"):
+        solve_in_contact(CLOSED, refinement=2, tension_field=True, most_steps=30)
+
+
+def test_the_work_is_that_of_the_whole_way(closed):
+    assert closed.work > closed.steps * len(closed.positions)  # the free shape's too
 
 
 def test_the_same_every_time():
