@@ -21,7 +21,7 @@ def round_diameter(beta: float, axial_stiffness: float, half_width: float) -> fl
 
 
 def solid_diameter(beta: float, axial_stiffness: float) -> float:
-    """Diameter of a solid round wire with such β and k, eq. (10), however thick that is."""
+    """Diameter of a solid round wire with such β and k: docs/theory.md, eq. (10), unbounded."""
     return math.sqrt(32 * beta / axial_stiffness)
 
 

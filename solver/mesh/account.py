@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from solver.errors import NotConvergedError
 from solver.mesh.descent import Solved, mass_of
 from solver.mesh.equilibrium import MeshEquilibrium
+from solver.mesh.factorization import Factored
 from solver.mesh.krylov import symmetric_product
 from solver.mesh.measures import loop_heights, total_height
 from solver.mesh.problem import MeshProblem
@@ -22,6 +23,9 @@ from solver.mesh.wire_twist import twist_energies, twist_strays
 from solver.scene import LoopScene
 
 Vectors = NDArray[np.float64]
+
+_LENT = (0.03, 0.3, 3.0, 30.0, 300.0)
+"""Stiffness, in units of E_f t."""
 
 
 def account(
@@ -74,12 +78,29 @@ def account(
 def _lowest_eigenvalue(
     scene: LoopScene | ArrayScene | SheetScene, solved: Solved, mesh: Mesh
 ) -> float:
-    minimum = solved.minimum
+    minimum, mass = solved.minimum, mass_of(mesh)
+    hessian = symmetric_product(solved.energy.pattern, minimum.entries)
+    if minimum.converged and minimum.negative:
+        factored = _positive(solved, mass)
+        return lowest_eigenvalue(hessian, factored, minimum.positions, mass)
     alone = isinstance(scene, LoopScene) and scene.isotropic_circle
     free = turn_of_fabric(mesh, minimum.positions) if alone else None
-    hessian = symmetric_product(solved.energy.pattern, minimum.entries)
     # the last matrix that a converged minimisation factorised is that of the minimum
-    return lowest_eigenvalue(hessian, minimum.factored, minimum.positions, mass_of(mesh), free)
+    return lowest_eigenvalue(hessian, minimum.factored, minimum.positions, mass, free)
+
+
+def _positive(solved: Solved, mass: Vectors) -> Factored:
+    """Factors of the Hessian with as much stiffness lent as leaves no negative eigenvalue.
+
+    Inverse iteration finds the eigenvalue next to 0; the lowest only where none is below.
+    """
+    for lent in _LENT:
+        entries = solved.minimum.entries.copy()
+        entries[solved.energy.pattern.diagonal] += lent * np.repeat(mass, 3)
+        factored = solved.factoriser.factorise(entries)
+        if factored.negative == 0:
+            return factored
+    return solved.factoriser.factorise(solved.minimum.entries)
 
 
 def _last_on(mesh: Mesh, solved: list[Solved]) -> Vectors | None:

@@ -10,6 +10,7 @@ from solver.ladder.choose import solve_scene
 from solver.ladder.edges import loop_vertices
 from solver.ladder.fidelity import Fidelity
 from solver.mesh.loop_mesh import SEGMENTS
+from solver.mesh.mirror import mirrors
 from solver.mesh.solve import solve_loop_mesh
 from solver.scene import LoopScene
 
@@ -53,9 +54,13 @@ def test_the_vertices_of_a_loop_are_known_before(refinement):
 
 
 def test_a_solve_tells_its_work():
-    one = solve_loop_mesh(LoopScene(0.3, 0.0145, 0.3), refinement=1)
+    ellipse = LoopScene(0.3, 0.0145, 0.3, axis_ratio=1.2)
+    one = solve_loop_mesh(ellipse, refinement=1)
     assert one.work == one.steps * len(one.positions)
-    finer = solve_loop_mesh(LoopScene(0.3, 0.0145, 0.3), refinement=2)
+    # of a round loop a quarter of the vertices moves
+    circle = solve_loop_mesh(LoopScene(0.3, 0.0145, 0.3), refinement=1)
+    assert circle.work == circle.steps * len(mirrors(circle.mesh).chosen)
+    finer = solve_loop_mesh(ellipse, refinement=2)
     assert finer.steps * len(one.positions) < finer.work < finer.steps * len(finer.positions)
 
 
