@@ -118,7 +118,7 @@ def _descended(
 def _grows(scene: ArrayScene) -> bool:
     """Whether a grid is alike in its middle, and buckles with crests along its rows."""
     loop = scene.equal_loop
-    return scene.gaps_kept and loop is not None and loop.isotropic_circle
+    return scene.gaps_kept and loop is not None and loop.axis_ratio == 1
 
 
 def _mirrored_problem(
