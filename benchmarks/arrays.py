@@ -157,6 +157,7 @@ def draw(rows):
                 )
     axes.set_xlabel("unknowns")
     axes.set_ylabel("CPU seconds, one thread")
+    axes.margins(x=0.12)
     axes.set_title("Square arrays, 1 × 1 to 20 × 20 loops (ε = 0.3, β = 0.0145, ν = 0.3)")
     axes.grid(visible=True, which="both", alpha=0.2)
     axes.legend()

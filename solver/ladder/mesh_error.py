@@ -33,7 +33,8 @@ def mesh_error(found: MeshEquilibrium, before: Sequence[MeshEquilibrium] = ()) -
 
     Of a loop whose height two changes lead to, it is what is left of their geometric series; with
     one change alone, that series as if no change were less than 1.5 times smaller than the last.
-    Of other scenes it is a third of the last change.
+    Of other scenes it is a third of the last change; of arrays with their fabric kept, whose height
+    settles later than all else, the whole change.
 
     Parameters
     ----------
@@ -45,7 +46,8 @@ def mesh_error(found: MeshEquilibrium, before: Sequence[MeshEquilibrium] = ()) -
     alone = isinstance(found.scene, LoopScene)
     # solves of an array on two meshes may end in two of its many shapes
     now, *coarser = _sequence(found, before if alone else ())
-    left = np.abs(now - coarser[0]) / (_ORDER - 1)
+    kept = isinstance(found.scene, ArrayScene) and found.scene.gaps_kept
+    left = np.abs(now - coarser[0]) / (1 if kept else _ORDER - 1)
     if alone:
         earlier = coarser[0] - coarser[1] if len(coarser) > 1 else np.full_like(now, np.nan)
         left = _rest(now - coarser[0], earlier)
