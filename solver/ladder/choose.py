@@ -35,6 +35,9 @@ ARRAY_TOLERANCE = 0.1
 """The same of arrays whose loops act on each other: most meshes they can have err by more than a
 hundredth."""
 
+_MOST_EXCESS = 0.01
+"""Of a wire's own curvature over its curvature, in parts of it, where the fabric is slack: smooth
+shapes are too rough there to tell a smaller one."""
 _PART_OF_TOLERANCE = 0.3
 _HALF = 0.5
 """Of the work on meshes, for fabric without bending stiffness; the rest is for that with it."""
@@ -173,7 +176,7 @@ def _by_compact_or_mesh(
         scene, reason = replace(scene, twist_ratio=ROUND_WIRE_TWIST_RATIO), smooth.reason
     slack = _matters(smooth, SLACK)
     # a mesh knows no more of what would stop a wire that wriggles
-    if _matters(smooth, OWN_CURVATURE):
+    if _excess_of_own_curvature(smooth) > _MOST_EXCESS * scene.natural_curvature:
         return _by_compact(scene, reason, tolerance, lenient=lenient)
     why = "the fabric is slack" if slack else "the smooth basis did not settle"
     added = "a mesh" if scene.alpha > 0 else "a mesh with a tension field"
@@ -200,6 +203,11 @@ def _stands(smooth: Answer) -> bool:
 def _lacks_twist(scene: LoopScene, answer: Answer) -> bool:
     """Whether a shape writhes and its wire's twist, which only straight wire has, was left out."""
     return _matters(answer, TWIST) and scene.natural_curvature == 0
+
+
+def _excess_of_own_curvature(answer: Answer) -> float:
+    told = (left.value for left in answer.omitted if left.term == OWN_CURVATURE)
+    return next(told, 0.0)
 
 
 def _matters(answer: Answer, term: str) -> bool:

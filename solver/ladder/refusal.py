@@ -28,7 +28,8 @@ def refused(
         What was solved with contact; designs have no option to leave that out.
     """
     remedies = [fault]
-    if scene_in_contact is not None and not isinstance(scene_in_contact, SheetScene):
+    can_do_without = scene_in_contact is not None and not isinstance(scene_in_contact, SheetScene)
+    if can_do_without and WITHOUT not in fault:
         remedies.append(WITHOUT)
     error = mesh_error(before[-1], before[:-1]) if len(before) > 1 else math.inf
     if math.isfinite(error):

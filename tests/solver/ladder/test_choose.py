@@ -202,6 +202,12 @@ def test_a_shape_with_writhe_gets_the_wires_twist():
     assert answer.equilibrium.scene.twist_ratio == 0.75
 
 
+def test_a_rough_shape_of_slack_fabric_does_not_tell_that_its_wire_would_wriggle():
+    answer = solve_scene(replace(LOOP, natural_curvature=2.0), tolerance=0.01)
+    assert answer.rung is Rung.MESH
+    assert answer.height_over_perimeter == pytest.approx(0.1555, rel=5e-3)
+
+
 @pytest.mark.parametrize("natural_curvature", [2.5, 4.0])
 def test_a_wire_that_would_wriggle_is_not_passed_on_to_a_mesh(natural_curvature, monkeypatch):
     monkeypatch.delattr("solver.ladder.meshed.solve_on_mesh")

@@ -31,8 +31,9 @@ def test_contact_that_does_not_settle_is_refused_with_a_remedy(monkeypatch):
     monkeypatch.setattr(contact, "_MOST_STEPS", 2)
     limit = "after 2 steps on 201 vertices, the most that it may take"
     remedy = r"raise beta or lower strain, or take the shape without contact \(--contact off\)"
-    with pytest.raises(NotConvergedError, match=f"{limit}.*{remedy}"):
+    with pytest.raises(NotConvergedError, match=f"{limit}.*{remedy}") as refusal:
         solve_scene(CLOSED, fidelity=Fidelity.MESH, tolerance=0.5)
+    assert str(refusal.value).count("--contact off") == 1
 
 
 def test_a_coarser_mesh_that_has_a_shape_is_told(monkeypatch):
