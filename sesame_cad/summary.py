@@ -53,6 +53,7 @@ def print_answer(data: Data) -> None:
         ("height / perimeter", f"{data['height_over_perimeter']:.6f}"),
         ("error of the height", _number(data["height_error"], ".1e") or "not known"),
         ("height / radius", _number(data["height_over_radius"], ".6f")),
+        ("of each loop", _span(data.get("loop_heights_over_radius", []))),
         ("pitch / diameter", _number(data["pitch_over_diameter"], ".6f")),
         ("energy / (E_f t R²)", _number(data["energy"], ".8f")),
         *((f"  {term}", f"{value:.8f}") for term, value in energy_terms.items()),
@@ -83,6 +84,11 @@ def _nearest(near: Data | None) -> str:
     crossings = f", {near['crossings']} crossings" if near["crossings"] else ""
     thick = near["wire_diameter_over_radius"]
     return f"wires {wires}, wire and fabric {fabric}{crossings}; the wire is {thick:.3g} R thick"
+
+
+def _span(values: list[float]) -> str:
+    """Give the smallest and largest of several values; nothing for one."""
+    return f"{min(values):.6f} to {max(values):.6f}" if len(values) > 1 else ""
 
 
 def _number(value: float | None, style: str) -> str:

@@ -33,8 +33,9 @@ def mesh_error(found: MeshEquilibrium, before: Sequence[MeshEquilibrium] = ()) -
 
     Of a loop whose height two changes lead to, it is what is left of their geometric series; with
     one change alone, that series as if no change were less than 1.5 times smaller than the last.
-    Of other scenes it is a third of the last change; of arrays with their fabric kept, whose height
-    settles later than all else, the whole change.
+    Of other scenes it is a third of the last change; of arrays with their fabric kept that of the
+    loops' own heights, for the whole's settles later than all else: see
+    `solver.mesh.omissions.mesh_omissions`.
 
     Parameters
     ----------
@@ -46,8 +47,7 @@ def mesh_error(found: MeshEquilibrium, before: Sequence[MeshEquilibrium] = ()) -
     alone = isinstance(found.scene, LoopScene)
     # solves of an array on two meshes may end in two of its many shapes
     now, *coarser = _sequence(found, before if alone else ())
-    kept = isinstance(found.scene, ArrayScene) and found.scene.gaps_kept
-    left = np.abs(now - coarser[0]) / (1 if kept else _ORDER - 1)
+    left = np.abs(now - coarser[0]) / (_ORDER - 1)
     if alone:
         earlier = coarser[0] - coarser[1] if len(coarser) > 1 else np.full_like(now, np.nan)
         left = _rest(now - coarser[0], earlier)
@@ -58,14 +58,23 @@ def mesh_error(found: MeshEquilibrium, before: Sequence[MeshEquilibrium] = ()) -
     return error / (size_of(found.scene) if flat else height)
 
 
+def loops_alone(found: MeshEquilibrium) -> bool:
+    """Whether only the loops' own heights are sharp: hinges leave the whole's open, or soft.
+
+    Arrays whose fabric is cut lie level on all meshes.
+    """
+    if isinstance(found.scene, ArrayScene):
+        return found.scene.gaps_kept
+    return bool(found.free_motions)
+
+
 def _sequence(found: MeshEquilibrium, before: Sequence[MeshEquilibrium]) -> list[Vectors]:
     """Heights on ever coarser meshes, of what minimises the same energy; the last is a rough one.
 
-    They are those of the whole (1,); where hinges leave it open, of each loop (w,): not in arrays,
-    which lie level on all meshes.
+    They are those of the whole (1,); where it is open or soft, of each loop (w,).
     """
     alike = [found, *takewhile(lambda one: _alike(found, one), reversed(before))]
-    if found.free_motions and not isinstance(found.scene, ArrayScene):
+    if loops_alone(found):
         return [one.loop_heights for one in alike] + [alike[-1].coarser_loop_heights]
     whole = [one.height for one in alike] + [alike[-1].coarser_height]
     return [np.array([height]) for height in whole]

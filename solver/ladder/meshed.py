@@ -18,7 +18,7 @@ from solver.ladder.contact import (
     refuse_what_meets_itself,
 )
 from solver.ladder.edges import MOST_TRIANGLES, edges_of_a_loop, loop_vertices
-from solver.ladder.mesh_error import FLAT, mesh_error
+from solver.ladder.mesh_error import FLAT, loops_alone, mesh_error
 from solver.ladder.refusal import refused
 from solver.mesh.any_scene import MeshScene, fabric_of, size_of, twisted
 from solver.mesh.drawing import SEGMENTS
@@ -303,6 +303,8 @@ def _mesh_answer(
         reason += "; the shape met itself: contact was added"
     elif off and found.meets_itself:
         reason += f"; contact was left out, as asked: {_how_it_meets(found)}"
+    if isinstance(found.scene, ArrayScene) and loops_alone(found):
+        reason += "; the error is that of the loops' own heights"
     return Answer(
         rung=Rung.MESH,
         reason=reason + _way_down(found),

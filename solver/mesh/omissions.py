@@ -20,6 +20,7 @@ from solver.fabric_bending import finest_wrinkle
 from solver.mesh.any_scene import fabric_of, wires_of
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.face_mesh import smallest_angles
+from solver.mesh.scene import ArrayScene
 from solver.mesh.star_bending import star_gauss_integral
 from solver.mesh.triangulation import GAP, Mesh, Wire
 from solver.mesh.wire_twist import twist_stiffness
@@ -37,6 +38,9 @@ SHARP_ANGLE = 5.0
 MOST_THIN = 0.1
 """Other triangulations have 0.01 of them, in the cusps beside the contacts; fans 0.3 and more."""
 
+WHOLE = "finer meshes, for the height of the whole"
+WHOLE_CHANGE = "its change from the mesh before, over it; the loops' own heights are sharper"
+_SETTLED = 0.02
 _EDGES_PER_WAVE = 4
 
 
@@ -58,6 +62,7 @@ def mesh_omissions(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
         *_gauss_left_out(found, scene),
         *_own_curvature(found),
         *_stiff_gaps(found.mesh),
+        *_soft_whole(found),
         OmittedTerm(
             "wire's softness beyond small stretch",
             "largest wire strain",
@@ -93,6 +98,18 @@ def _stiff_gaps(mesh: Mesh) -> tuple[OmittedTerm, ...]:
         return ()
     thin = float((smallest_angles(mesh.points, gaps) < SHARP_ANGLE).mean())
     return (OmittedTerm(GAP_SOFTNESS, THIN, thin, matters=thin > MOST_THIN),)
+
+
+def _soft_whole(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:
+    """How far from settled the height of an array is whose loops hinge on fabric that wrinkles.
+
+    The loops' own heights settle long before (docs/theory.md, section 11).
+    """
+    kept = isinstance(found.scene, ArrayScene) and found.scene.gaps_kept
+    if not kept or found.height == 0 or np.isnan(found.coarser_height):
+        return ()
+    change = abs(found.height - found.coarser_height) / found.height
+    return (OmittedTerm(WHOLE, WHOLE_CHANGE, change, matters=change > _SETTLED),)
 
 
 def _weight(found: MeshEquilibrium) -> tuple[OmittedTerm, ...]:

@@ -1,12 +1,18 @@
 """The error that a mesh states covers the true one, which the smooth basis tells."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from solver.compact import solve_loop
 from solver.ladder.choose import solve_scene
+from solver.ladder.contact import ContactChoice
 from solver.ladder.fidelity import Fidelity
 from solver.ladder.mesh_error import _rest
+from solver.mesh.array_mesh import Between
+from solver.mesh.omissions import WHOLE
+from solver.mesh.scene import ArrayScene
 from solver.scene import LoopScene
 
 LOOP = LoopScene(0.3, 0.0145, 0.3)
@@ -72,3 +78,20 @@ def test_no_mesh_is_finer_than_needed():
         for t in (1e-2, 1e-3)
     ]
     assert triangles == [1280, 5120]
+
+
+def test_arrays_that_hinge_on_wrinkled_fabric_are_told_by_their_loops():
+    """The whole's height settles later, which is told by itself."""
+    scene = ArrayScene(LOOP, 2, 2, Between.KEPT)
+    answer = solve_scene(scene, contact=ContactChoice.OFF, tolerance=0.02)
+    found = answer.equilibrium
+    loops = np.abs(found.loop_heights - found.coarser_loop_heights).max() / 3
+    assert answer.height_error == pytest.approx(loops / found.loop_heights.max())
+    assert "the loops' own heights" in answer.reason
+    (whole,) = (left for left in answer.omitted if left.term == WHOLE)
+    change = abs(found.height - found.coarser_height) / found.height
+    assert whole.value == pytest.approx(change)
+    assert whole.matters
+    assert change > 3 * answer.height_error
+    cut = solve_scene(replace(scene, between=Between.CUT), fidelity=Fidelity.MESH, tolerance=0.02)
+    assert all(left.term != WHOLE for left in cut.omitted)
