@@ -233,7 +233,7 @@ def _tiles(scene: ArrayScene) -> bool:
     return (
         not scene.gaps_kept
         and scene.contact is Contact.BONDED
-        and len(set(scene.stiffness)) == 1
+        and scene.equal_loop is not None
         and scene.loop.isotropic_circle
     )
 
@@ -243,15 +243,8 @@ def _solve_array(
 ) -> Answer:
     if scene.rows * scene.columns == 1:
         return _solve_loop(scene.loop, fidelity, tolerance, mesh, lenient=lenient)
-    if fidelity is not Fidelity.MESH and _tiles(scene):
-        wire = scene.stiffness[0]
-        loop = replace(
-            scene.loop,
-            beta=wire.beta,
-            axial_stiffness=wire.axial_stiffness,
-            natural_curvature=wire.natural_curvature,
-            twist_ratio=wire.twist_ratio,
-        )
+    loop = scene.equal_loop
+    if fidelity is not Fidelity.MESH and loop is not None and _tiles(scene):
         one = _solve_loop(loop, fidelity, tolerance, mesh, lenient=lenient)
         return replace(one, reason=f"{TILED}; {one.reason}")
     if fidelity in (Fidelity.SCALING, Fidelity.COMPACT):

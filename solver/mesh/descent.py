@@ -145,6 +145,20 @@ def descend(
     return found
 
 
+def from_start(
+    problem: MeshProblem,
+    start: Vectors,
+    decrease: float,
+    backend: str | None,
+    most_steps: int,
+    *,
+    first: int = 0,
+) -> list[Solved]:
+    """Minimise roughly with a soft wire on the mesh numbered ``first``, then from there on."""
+    rough = roughly_solved(problem, first, start, backend, decrease)
+    return [rough, *descend(problem, first, rough.minimum.positions, backend, most_steps)]
+
+
 def among_all(problem: MeshProblem, found: Solved, backend: str | None, most_steps: int) -> Solved:
     """Go on, among all shapes, from a minimum on the finest mesh among mirrored ones.
 

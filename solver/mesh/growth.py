@@ -6,13 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from solver.mesh.array_mesh import Grid
-from solver.mesh.descent import (
-    Solved,
-    among_all,
-    descend,
-    nearly_solved,
-    roughly_solved,
-)
+from solver.mesh.descent import Solved, among_all, descend, from_start, nearly_solved
 from solver.mesh.grown_start import grown_start, smaller
 from solver.mesh.problem import MeshProblem
 from solver.mesh.start import array_start
@@ -31,12 +25,6 @@ class _Grown:
     last: dict[int, Solved]
 
 
-def _from_flat(problem: MeshProblem, backend: str | None, most_steps: int) -> list[Solved]:
-    flat = array_start(problem.meshes[0])
-    rough = roughly_solved(problem, 0, flat, backend, _ROUGHLY)
-    return [rough, *descend(problem, 0, rough.minimum.positions, backend, most_steps)]
-
-
 def _grown(
     grid: Grid,
     problem_of: Callable[[Grid], MeshProblem],
@@ -47,7 +35,8 @@ def _grown(
     finest = len(problem.meshes) - 1
     levels = range(max(0, finest - 1), finest + 1)
     if smaller(grid) == grid:
-        solved = _from_flat(problem, backend, most_steps)
+        flat = array_start(problem.meshes[0])
+        solved = from_start(problem, flat, _ROUGHLY, backend, most_steps)
         sizes = {len(problem.meshes[level].points): level for level in levels}
         last = {sizes[n]: s for s in solved if (n := len(s.minimum.positions)) in sizes}
         return _Grown(grid, problem, solved, last)

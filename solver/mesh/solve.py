@@ -12,7 +12,7 @@ from solver.errors import SceneError
 from solver.flat import flat_radius
 from solver.mesh.account import account
 from solver.mesh.array_mesh import Grid
-from solver.mesh.descent import Solved, among_all, descend, roughly_solved
+from solver.mesh.descent import Solved, among_all, descend, from_start, roughly_solved
 from solver.mesh.equilibrium import MeshEquilibrium
 from solver.mesh.flatness import all_but_stable_flat, settled_flat
 from solver.mesh.growth import solved_by_growth
@@ -101,18 +101,11 @@ def _loop_from_flat(
     solved: list[Solved] = []
     if scene.isotropic_circle:  # its crests lie on a mirror plane; an ellipse's do not
         mirrored = replace(problem, mirrored=True)
-        solved = _descended(mirrored, first, lifted, backend, most_steps)
+        solved = from_start(mirrored, lifted, _ROUGHLY, backend, most_steps, first=first)
         solved.append(among_all(problem, solved[-1], backend, most_steps))
         if solved[-1].minimum.converged:
             return solved
-    return [*solved, *_descended(problem, first, lifted, backend, most_steps)]
-
-
-def _descended(
-    problem: MeshProblem, first: int, start: Vectors, backend: str | None, most_steps: int
-) -> list[Solved]:
-    rough = roughly_solved(problem, first, start, backend, _ROUGHLY)
-    return [rough, *descend(problem, first, rough.minimum.positions, backend, most_steps)]
+    return [*solved, *from_start(problem, lifted, _ROUGHLY, backend, most_steps, first=first)]
 
 
 def _grows(scene: ArrayScene) -> bool:
@@ -160,9 +153,7 @@ def _buckled(
     if problem.levelling > 0:
         return _levelled(problem, backend, most_steps)
     flat = array_start(problem.meshes[_COARSEST_ARRAY])
-    rough = roughly_solved(problem, _COARSEST_ARRAY, flat, backend, _LESS_ROUGHLY)
-    start = rough.minimum.positions
-    return [rough, *descend(problem, _COARSEST_ARRAY, start, backend, most_steps)]
+    return from_start(problem, flat, _LESS_ROUGHLY, backend, most_steps, first=_COARSEST_ARRAY)
 
 
 def solve_array(
